@@ -1,0 +1,1 @@
+"""The numerical core: NumPy, SciPy and Embree. No Blender, no files, no printing, no state."""

@@ -1,0 +1,9 @@
+"""The retargeting methods: one module each, and one line here.
+
+Plain data, so that a panel can list them without loading SciPy.
+"""
+
+METHODS: dict[str, str] = {
+    "hierarchical": "Hierarchical (Na & Jung): dense motion by correspondence, level by level, with examples",
+}
+"""Method name, as in job files -> what an artist reads. The module of the same name has `fit`."""

@@ -1,0 +1,103 @@
+"""The methods' settings as plain data: no SciPy here, so that panels and job files can read them.
+
+One frozen dataclass per method. Every field has `help`; numbers have `low` and `high`, texts have
+`choices`. Job files, the panel and `check` are all made from these.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, fields
+from typing import Any
+
+from ..errors import RetargetError
+
+
+def _setting(default: Any, help: str, **limits: Any) -> Any:
+    return field(default=default, metadata={"help": help, **limits})
+
+
+@dataclass(frozen=True)
+class HierarchicalSettings:
+    """Settings of the hierarchical method (Na and Jung 2004)."""
+
+    levels: int = _setting(4, "Levels of the normal mesh: each one holds four times the triangles", low=1, high=6)
+    variant: str = _setting(
+        "default",
+        "default: dense motion with example residuals; paper: the published formulas",
+        choices=("default", "paper"),
+    )
+    read: str = _setting(
+        "track",
+        "track: the source keeps its topology and its points are followed; pierce: every frame is pierced anew",
+        choices=("track", "pierce"),
+    )
+    frames: str = _setting(
+        "global",
+        "How motion turns: by one similarity of the two heads, or by local frames on the base mesh",
+        choices=("global", "local"),
+    )
+    extra_points: int = _setting(
+        50, "Base points that are added between the given ones, matched by the correspondence", low=0, high=400
+    )
+    base_gain: float = _setting(1.0, "Strength of the coarse motion, carried by the base mesh", low=0.0, high=4.0)
+    level_gains: tuple[float, ...] = _setting(
+        (), "Strength of the motion that each level adds, level 1 first; missing ones are 1", low=0.0, high=4.0
+    )
+    detail_scale: float = _setting(
+        1.0, "Strength of what is finer than the last level, wrinkles above all", low=0.0, high=4.0
+    )
+    example_strength: float = _setting(1.0, "How far the examples steer the result", low=0.0, high=1.0)
+
+    def gain(self, level: int) -> float:
+        """Gain of a level: 0 is the base."""
+        if level == 0:
+            return self.base_gain
+        return self.level_gains[level - 1] if level <= len(self.level_gains) else 1.0
+
+
+Settings = HierarchicalSettings
+"""Any method's settings."""
+
+SETTINGS: dict[str, type[HierarchicalSettings]] = {"hierarchical": HierarchicalSettings}
+"""Method name -> its settings class."""
+
+
+def read_settings(method: str, values: dict[str, Any], where: str = "[settings]") -> Settings:
+    """Settings of a method from plain values, every one checked.
+
+    Raises
+    ------
+    RetargetError : for an unknown name, a wrong type, or a value out of range; it names them all.
+    """
+    cls = SETTINGS[method]
+    known = {f.name: f for f in fields(cls)}
+    wrong: list[str] = []
+    clean: dict[str, Any] = {}
+    for name, value in values.items():
+        if name not in known:
+            wrong.append(f"{where} has no setting {name!r}; there are {', '.join(known)}")
+            continue
+        problem, clean[name] = _fit_value(known[name].default, known[name].metadata, value)
+        if problem:
+            wrong.append(f"{where} {name} = {value!r}: expected {problem}")
+    if wrong:
+        raise RetargetError("; ".join(wrong))
+    return cls(**clean)
+
+
+def _fit_value(default: Any, limits: Any, value: Any) -> tuple[str, Any]:
+    """('', the value in its type), or (what was expected, None)."""
+    if isinstance(default, tuple):
+        if not isinstance(value, list | tuple):
+            return f"a list of numbers from {limits['low']} to {limits['high']}", None
+        parts = [_fit_value(1.0, limits, part) for part in value]
+        return next((problem for problem, _ in parts if problem), ""), tuple(part for _, part in parts)
+    if isinstance(default, str):
+        return ("" if value in limits["choices"] else f"one of {', '.join(limits['choices'])}"), value
+    kind = int if isinstance(default, int) else float
+    expected = f"{'a whole number' if kind is int else 'a number'} from {limits['low']} to {limits['high']}"
+    if isinstance(value, bool) or not isinstance(value, int if kind is int else (int, float)):
+        return expected, None
+    if not limits["low"] <= value <= limits["high"]:
+        return expected, None
+    return "", kind(value)
