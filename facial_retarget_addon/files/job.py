@@ -1,0 +1,223 @@
+"""Job files: a whole retargeting task in TOML. The panel saves them, the command line runs them."""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any
+
+from ..core.errors import RetargetError
+from ..core.methods import METHODS
+from ..core.methods.settings import SETTINGS, Settings, read_settings
+from .documents import Table, read_toml
+from .whole import write_whole
+
+VERSION = 1
+
+
+@dataclass(frozen=True)
+class FaceFiles:
+    """Files of one face: its neutral mesh, its feature points, and the frames it acts (the source's)."""
+
+    neutral: Path
+    points: Path | None = None
+    frames: Path | None = None
+
+
+@dataclass(frozen=True)
+class ExampleFiles:
+    """One example expression: the same moment on both faces, as meshes."""
+
+    name: str
+    source: Path
+    target: Path
+
+
+@dataclass(frozen=True)
+class OutputFiles:
+    """Where the results go: the target's frames, the figures (JSON), the page to look at (HTML)."""
+
+    frames: Path
+    report: Path | None = None
+    page: Path | None = None
+
+
+@dataclass(frozen=True)
+class Job:
+    """A retargeting task. Its paths are absolute; in the file they are relative to the file's folder.
+
+    base : a base mesh of the artist's own, or None.
+    path : the job file itself.
+    """
+
+    method: str
+    source: FaceFiles
+    target: FaceFiles
+    examples: tuple[ExampleFiles, ...]
+    settings: Settings
+    output: OutputFiles
+    base: Path | None
+    path: Path
+
+    def inputs(self) -> dict[str, Path]:
+        """What is read: how the job file names it -> its path."""
+        named = {
+            "base": self.base,
+            "[source] neutral": self.source.neutral,
+            "[source] points": self.source.points,
+            "[source] frames": self.source.frames,
+            "[target] neutral": self.target.neutral,
+            "[target] points": self.target.points,
+        }
+        for example in self.examples:
+            named[f"example {example.name!r} source"] = example.source
+            named[f"example {example.name!r} target"] = example.target
+        return {name: path for name, path in named.items() if path is not None}
+
+    def outputs(self) -> dict[str, Path]:
+        """What is written: how the job file names it -> its path."""
+        named = {"frames": self.output.frames, "report": self.output.report, "page": self.output.page}
+        return {f"[output] {name}": path for name, path in named.items() if path is not None}
+
+
+def read_job(path: Path) -> Job:
+    """Read a job file.
+
+    Raises
+    ------
+    RetargetError : if it cannot be read, or has missing or unknown keys, wrong types or values; names all of them.
+    """
+    path = path.absolute()
+    wrong: list[str] = []
+    root = Table(read_toml(path), "", wrong)
+    root.expect("version", VERSION)
+    method = root.get("method", str)
+    if method not in METHODS:
+        wrong.append(f"method = {method!r}, expected one of {', '.join(METHODS)}")
+    job = Job(
+        method=method,
+        source=_read_face(root.table("source"), path.parent, ("points",), ("frames",)),
+        target=_read_face(root.table("target"), path.parent, ("points",), ()),
+        examples=_read_examples(root, path.parent),
+        settings=_read_settings(method, root),
+        output=_read_output(root.table("output"), path.parent),
+        base=_optional_path(root, "base", path.parent),
+        path=path,
+    )
+    root.no_more()
+    if not wrong:
+        wrong += _overwritten(job)
+    if wrong:
+        raise RetargetError(f"{path}: {'; '.join(wrong)}")
+    return job
+
+
+def _read_face(table: Table, folder: Path, optional: tuple[str, ...], required: tuple[str, ...]) -> FaceFiles:
+    found: dict[str, Any] = {key: _path(table, key, folder) for key in ("neutral", *required)}
+    found |= {key: _optional_path(table, key, folder) for key in optional}
+    table.no_more()
+    return FaceFiles(**found)
+
+
+def _read_examples(root: Table, folder: Path) -> tuple[ExampleFiles, ...]:
+    examples: list[ExampleFiles] = []
+    for number, values in enumerate(root.optional("examples", list) or [], start=1):
+        table = Table(values, f"[[examples]] {number}", root.wrong)
+        name = table.get("name", str)
+        if any(name == other.name for other in examples):
+            root.wrong.append(f"{table.where} name {name!r} appears twice, expected unique names")
+        examples.append(ExampleFiles(name, _path(table, "source", folder), _path(table, "target", folder)))
+        table.no_more()
+    return tuple(examples)
+
+
+def _read_settings(method: str, root: Table) -> Settings:
+    values = root.optional("settings", dict) or {}
+    if method in METHODS:
+        try:
+            return read_settings(method, values)
+        except RetargetError as error:
+            root.wrong.append(str(error))
+    return next(iter(SETTINGS.values()))()
+
+
+def _read_output(table: Table, folder: Path) -> OutputFiles:
+    output = OutputFiles(
+        _path(table, "frames", folder), _optional_path(table, "report", folder), _optional_path(table, "page", folder)
+    )
+    table.no_more()
+    return output
+
+
+def _path(table: Table, key: str, folder: Path) -> Path:
+    faults = len(table.wrong)
+    text = table.get(key, str)
+    if len(table.wrong) == faults and (not text.strip() or "\0" in text):
+        table.wrong.append(f"{table.where} {key} = {text!r}, expected a path".strip())
+        return folder
+    return folder / text
+
+
+def _optional_path(table: Table, key: str, folder: Path) -> Path | None:
+    return _path(table, key, folder) if table.optional(key, str) is not None else None
+
+
+def _overwritten(job: Job) -> list[str]:
+    """Outputs that would replace an input, the job itself or each other."""
+    taken = {"the job file": job.path, **job.inputs()}
+    wrong: list[str] = []
+    for name, path in job.outputs().items():
+        wrong += [
+            f"{name} and {other} are one file, expected different ones"
+            for other, used in taken.items()
+            if os.path.abspath(used) == os.path.abspath(path)
+        ]
+        taken[name] = path
+    return wrong
+
+
+def write_job(job: Job, path: Path) -> None:
+    """Write a job file, whole or not at all; paths inside its folder are written relative to it.
+
+    `read_job` gives the same job back, but for its `path`.
+
+    Raises
+    ------
+    RetargetError : if the system refuses to write, or a name or path is no Unicode text.
+    """
+    folder = path.absolute().parent
+    lines = [f"version = {VERSION}", f"method = {_toml(job.method)}"]
+    if job.base is not None:
+        lines.append(f"base = {_toml(_relative(job.base, folder))}")
+    lines += _face_lines("source", job.source, folder) + _face_lines("target", job.target, folder)
+    for example in job.examples:
+        lines += ["", "[[examples]]", f"name = {_toml(example.name)}"]
+        lines += [f"{key} = {_toml(_relative(getattr(example, key), folder))}" for key in ("source", "target")]
+    lines += ["", "[settings]"]
+    lines += [f"{field.name} = {_toml(getattr(job.settings, field.name))}" for field in fields(job.settings)]
+    lines += ["", "[output]"]
+    lines += [f"{key.split()[1]} = {_toml(_relative(file, folder))}" for key, file in job.outputs().items()]
+    write_whole(path, ("\n".join(lines) + "\n").encode())
+
+
+def _face_lines(name: str, face: FaceFiles, folder: Path) -> list[str]:
+    files = {"neutral": face.neutral, "points": face.points, "frames": face.frames}
+    return ["", f"[{name}]"] + [
+        f"{key} = {_toml(_relative(file, folder))}" for key, file in files.items() if file is not None
+    ]
+
+
+def _relative(path: Path, folder: Path) -> str:
+    return (path.relative_to(folder) if path.is_relative_to(folder) else path).as_posix()
+
+
+def _toml(value: str | float | tuple[float, ...]) -> str:
+    if isinstance(value, tuple):
+        return f"[{', '.join(_toml(part) for part in value)}]"
+    if isinstance(value, str):
+        if not value.isascii() and value.encode("utf-8", "ignore").decode() != value:
+            raise RetargetError(f"{value!r} cannot stand in a job file: it is no Unicode text")
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    return repr(value)

@@ -1,0 +1,122 @@
+"""Outputs appear whole or not at all: written beside their place, then renamed."""
+
+from __future__ import annotations
+
+import errno
+import os
+import secrets
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from ..core.errors import RetargetError
+
+
+class Aside:
+    """Places beside the real ones. What was written there appears together, or goes away together."""
+
+    def __init__(self) -> None:
+        self._pairs: list[tuple[Path, Path]] = []
+
+    def place(self, path: Path, replaces: str = "") -> Path:
+        """A place in the same folder (same file system, same suffix) to write `path` at.
+
+        Parameters
+        ----------
+        path : where the file or folder shall appear.
+        replaces : for a folder, the suffix of the files that it may hold now and that go with it.
+
+        Raises
+        ------
+        RetargetError : if the folder around `path` is missing, or `path` is a folder that holds anything
+            but such files: replacing it would lose them.
+        """
+        if not path.parent.is_dir():
+            raise RetargetError(f"{path} cannot be written: there is no folder {path.parent}")
+        if path.is_dir():
+            _check_replaceable(path, replaces)
+        aside = path.parent / f".{path.stem}.{secrets.token_hex(4)}.partial{path.suffix}"
+        self._pairs.append((aside, path))
+        return aside
+
+    def appear(self) -> None:
+        """Put everything in its place: first all of it onto the disk, then the renames."""
+        for aside, _ in self._pairs:
+            for part in aside.iterdir() if aside.is_dir() else [aside]:
+                _flush(part)
+        while self._pairs:
+            aside, path = self._pairs[0]
+            _replace(aside, path)
+            del self._pairs[0]
+
+    def vanish(self) -> None:
+        """Remove what has not appeared."""
+        for aside, _ in self._pairs:
+            if aside.is_dir():
+                shutil.rmtree(aside, ignore_errors=True)
+            else:
+                aside.unlink(missing_ok=True)
+
+
+@contextmanager
+def written_whole() -> Iterator[Aside]:
+    """Write several outputs that appear together at the end of the block.
+
+    An exception, Ctrl-C included, leaves every file and folder as it was.
+
+    Raises
+    ------
+    RetargetError : if the system refuses to write, such as on a full disk.
+    """
+    aside = Aside()
+    try:
+        yield aside
+        aside.appear()
+    except OSError as error:
+        raise RetargetError(_refusal(error)) from error
+    finally:
+        aside.vanish()
+
+
+def write_whole(path: Path, content: bytes) -> None:
+    """Write one file, whole or not at all; RetargetError if the system refuses."""
+    with written_whole() as aside, open(aside.place(path), "xb") as file:
+        file.write(content)
+
+
+def _check_replaceable(folder: Path, suffix: str) -> None:
+    foreign = sorted(entry.name for entry in folder.iterdir() if not suffix or entry.suffix.lower() != suffix)
+    if not suffix:
+        raise RetargetError(f"{folder} cannot be written: it is a folder, expected a file")
+    if foreign:
+        raise RetargetError(
+            f"folder {folder} holds {foreign[0]!r}; expected a new folder, or one that holds {suffix} files only, "
+            "since it is replaced"
+        )
+
+
+def _flush(path: Path) -> None:
+    with open(path, "rb+") as file:
+        os.fsync(file.fileno())
+
+
+def _replace(aside: Path, path: Path) -> None:
+    """Rename over what is there; a folder of old frames steps aside until the new one stands."""
+    if not path.is_dir():
+        os.replace(aside, path)
+        return
+    old = path.parent / f".{path.name}.{secrets.token_hex(4)}.old"
+    os.rename(path, old)
+    try:
+        os.rename(aside, path)
+    except BaseException:
+        os.rename(old, path)
+        raise
+    shutil.rmtree(old, ignore_errors=True)
+
+
+def _refusal(error: OSError) -> str:
+    reason = "the disk is full" if error.errno in (errno.ENOSPC, errno.EDQUOT) else error.strerror or str(error)
+    where = f" ({error.filename})" if error.filename else ""
+    return f"the output cannot be written: {reason}{where}"
