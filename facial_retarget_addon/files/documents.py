@@ -12,6 +12,9 @@ from ..core.errors import RetargetError
 
 T = TypeVar("T")
 
+MOST_FAULTS = 12
+"""Faults of one file that a message spells out."""
+
 _KINDS = {str: "a text", int: "a whole number", dict: "a table", list: "a list"}
 
 
@@ -34,9 +37,15 @@ def read_json(path: Path) -> Any:
     return _parse(path, lambda text: json.loads(text, object_pairs_hook=_unique, parse_constant=_no_constant), "JSON")
 
 
-def write_json(value: Any) -> bytes:
-    """Plain data as an indented JSON document."""
+def json_bytes(value: Any) -> bytes:
+    """Plain data as an indented JSON document in UTF-8."""
     return (json.dumps(value, indent=1, ensure_ascii=False, allow_nan=False) + "\n").encode("utf-8", "backslashreplace")
+
+
+def fault_sentence(path: Path, wrong: list[str]) -> str:
+    """What is wrong in a file, in one sentence; the first faults of a long list stand for all."""
+    more = f"; and {len(wrong) - MOST_FAULTS} more" if len(wrong) > MOST_FAULTS else ""
+    return f"{path}: {'; '.join(wrong[:MOST_FAULTS])}{more}"
 
 
 def _parse(path: Path, parse: Callable[[str], Any], language: str) -> Any:

@@ -11,7 +11,7 @@ from typing import Any
 from ..core.errors import RetargetError
 from ..core.methods import METHODS
 from ..core.methods.settings import SETTINGS, Settings, read_settings
-from .documents import Table, read_toml
+from .documents import Table, fault_sentence, read_toml
 from .whole import write_whole
 
 VERSION = 1
@@ -110,7 +110,7 @@ def read_job(path: Path) -> Job:
     if not wrong:
         wrong += _overwritten(job)
     if wrong:
-        raise RetargetError(f"{path}: {'; '.join(wrong)}")
+        raise RetargetError(fault_sentence(path, wrong))
     return job
 
 

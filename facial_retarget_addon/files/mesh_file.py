@@ -1,0 +1,54 @@
+"""What a mesh file holds: the triangles to work on, and the artist's polygons and UVs to write back."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ..core.arrays import FloatArray, IntArray
+from ..core.errors import RetargetError
+from ..core.mesh import TriMesh
+
+
+@dataclass(frozen=True, eq=False)
+class MeshFile:
+    """A mesh as it stands in a file.
+
+    Attributes
+    ----------
+    mesh : triangles on the file's own vertices.
+    counts : (P,) corners of each polygon.
+    corners : (C,) vertices of the polygons, one after the other.
+    uvs : (C, 2) texture coordinates of the corners, or None.
+    """
+
+    mesh: TriMesh
+    counts: IntArray
+    corners: IntArray
+    uvs: FloatArray | None = None
+
+    @classmethod
+    def from_polygons(
+        cls, path: Path, vertices: FloatArray, counts: IntArray, corners: IntArray, uvs: FloatArray | None = None
+    ) -> MeshFile:
+        """The polygons of a file, triangulated and checked.
+
+        Raises
+        ------
+        RetargetError : if the mesh is empty, has vertices that are not finite, polygons with fewer than three
+            corners, or corners that are no vertex; the message starts with the path.
+        """
+        if len(vertices) and not np.isfinite(vertices).all():
+            TriMesh(vertices, np.zeros((1, 3), np.int64)).checked(str(path))
+        try:
+            mesh = TriMesh.from_polygons(vertices, counts, corners)
+        except RetargetError as error:
+            raise RetargetError(f"{path}: {error}") from error
+        return cls(mesh.checked(str(path)), counts, corners, uvs)
+
+    @classmethod
+    def from_mesh(cls, mesh: TriMesh) -> MeshFile:
+        """A triangle mesh without UVs."""
+        return cls(mesh, np.full(len(mesh.faces), 3, np.int64), mesh.faces.ravel())
