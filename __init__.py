@@ -1,0 +1,18 @@
+"""Facial Retarget, a Blender extension. Enabling it loads neither SciPy nor Embree: operators do when they run."""
+
+from . import operators, panels
+from .facial_retarget_addon import properties
+
+PARTS = (properties, operators, panels)
+
+
+def register() -> None:
+    """Called by Blender when the extension is enabled."""
+    for part in PARTS:
+        part.register()
+
+
+def unregister() -> None:
+    """Called by Blender when the extension is disabled."""
+    for part in reversed(PARTS):
+        part.unregister()

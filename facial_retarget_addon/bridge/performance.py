@@ -1,0 +1,56 @@
+"""The source's performance: an evaluated object, frame after frame."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import numpy as np
+from bpy.types import Context, Object, Scene
+
+from ..core.arrays import FloatArray
+from ..core.errors import RetargetError
+from .background import Steps
+from .meshes import evaluated_positions
+
+
+@contextmanager
+def frame_kept(scene: Scene) -> Iterator[None]:
+    """Puts the scene back to its frame, whatever happens inside."""
+    frame, subframe = scene.frame_current, scene.frame_subframe
+    try:
+        yield
+    finally:
+        scene.frame_set(frame, subframe=subframe)
+
+
+def read_frame(context: Context, thing: Object, frame: int) -> FloatArray:
+    """(V, 3) float32 positions of an object at one frame, in face space; the scene is left at that frame.
+
+    Raises
+    ------
+    RetargetError : if the object is hidden (Blender does not evaluate it then), or its vertices change in number.
+    """
+    if not thing.visible_get(view_layer=context.view_layer):
+        raise RetargetError(f"object {thing.name!r} is hidden, expected it visible: Blender evaluates nothing hidden")
+    context.scene.frame_set(frame)
+    return evaluated_positions(thing, context.evaluated_depsgraph_get())
+
+
+def read_frames(context: Context, thing: Object, frames: range) -> Steps[FloatArray]:
+    """Read a performance, a frame at each step; returns (F, V, 3) float32 in face space.
+
+    The scene's frame is put back at the end, and when the steps are closed half-way.
+
+    Raises
+    ------
+    RetargetError : if there is no frame, or as `read_frame`.
+    """
+    if not len(frames):
+        raise RetargetError(f"the frame range ends at {frames.stop - 1} before it starts at {frames.start}")
+    read = np.empty((len(frames), len(thing.data.vertices), 3), np.float32)
+    with frame_kept(context.scene):
+        for i, frame in enumerate(frames):
+            read[i] = read_frame(context, thing, frame)
+            yield (i + 1) / len(frames), f"Reading frame {frame}"
+    return read

@@ -1,0 +1,135 @@
+"""Property groups: what the artist sets, kept in the .blend, and where it hangs.
+
+The methods' settings are made from their dataclasses, so that panel, job file and core agree.
+"""
+
+from dataclasses import Field, fields
+from typing import Any
+
+import bpy
+from bpy.props import (
+    BoolProperty,
+    CollectionProperty,
+    EnumProperty,
+    FloatProperty,
+    FloatVectorProperty,
+    IntProperty,
+    IntVectorProperty,
+    PointerProperty,
+    StringProperty,
+)
+from bpy.types import Object, PropertyGroup, Scene
+
+from .core.methods import METHODS
+from .core.methods.settings import SETTINGS
+
+LEVEL_GAINS = 6
+"""Gains that the panel offers: as many as there can be levels."""
+
+
+def _is_mesh(_: PropertyGroup, candidate: Object) -> bool:
+    return candidate.type == "MESH"
+
+
+class FACIALRETARGET_PG_feature_point(PropertyGroup):
+    """A named place on the object's surface: three vertices and their weights. `name` is inherited."""
+
+    vertices: IntVectorProperty(name="Vertices", size=3, min=0)
+    weights: FloatVectorProperty(name="Weights", size=3, default=(1.0, 0.0, 0.0), precision=4)
+
+
+class FACIALRETARGET_PG_face(PropertyGroup):
+    """What an object knows as a face."""
+
+    points: CollectionProperty(type=FACIALRETARGET_PG_feature_point)
+    active_point: IntProperty(name="Active feature point")
+
+
+class FACIALRETARGET_PG_example(PropertyGroup):
+    """An example expression: the shape key of this name on both faces. `name` is inherited."""
+
+
+def _property(setting: Field) -> Any:
+    """The Blender property of one setting of a method."""
+    limits = setting.metadata
+    text = {"name": setting.name.replace("_", " ").capitalize(), "description": limits["help"]}
+    if isinstance(setting.default, str):
+        items = [(choice, choice.capitalize(), limits["help"]) for choice in limits["choices"]]
+        return EnumProperty(items=items, default=setting.default, **text)
+    text |= {"min": limits["low"], "max": limits["high"]}
+    if isinstance(setting.default, tuple):
+        return FloatVectorProperty(size=LEVEL_GAINS, default=(1.0,) * LEVEL_GAINS, **text)
+    kind = IntProperty if isinstance(setting.default, int) else FloatProperty
+    return kind(default=setting.default, **text)
+
+
+def _settings_group(method: str) -> type[PropertyGroup]:
+    """The property group of a method's settings."""
+    annotations = {setting.name: _property(setting) for setting in fields(SETTINGS[method])}
+    name = f"FACIALRETARGET_PG_{method}"
+    body = {"__doc__": SETTINGS[method].__doc__, "__module__": __name__, "__annotations__": annotations}
+    return type(name, (PropertyGroup,), body)
+
+
+SETTINGS_GROUPS = {method: _settings_group(method) for method in SETTINGS}
+"""Method name -> the property group of its settings; on the scene's group it has the method's name."""
+
+
+class FACIALRETARGET_PG_task(PropertyGroup):
+    """One retargeting task: the panel, and what a job file holds."""
+
+    source: PointerProperty(name="Source", type=Object, poll=_is_mesh, description="The face that moves")
+    target: PointerProperty(name="Target", type=Object, poll=_is_mesh, description="The face that shall move")
+    source_neutral: EnumProperty(
+        name="Neutral",
+        items=[
+            ("BASIS", "Basis", "The source's neutral is its Basis, without modifiers"),
+            ("FRAME", "Frame", "The source's neutral is how it looks at one frame: for caches and scans"),
+        ],
+    )
+    neutral_frame: IntProperty(name="Neutral frame", default=1)
+    use_scene_range: BoolProperty(name="Scene's frames", default=True, description="Retarget the scene's frame range")
+    frame_start: IntProperty(name="First frame", default=1)
+    frame_end: IntProperty(name="Last frame", default=250)
+    base: PointerProperty(
+        name="Base mesh",
+        type=Object,
+        poll=_is_mesh,
+        description="A base mesh of your own: show the base mesh, change its triangles, choose it here",
+    )
+    examples: CollectionProperty(type=FACIALRETARGET_PG_example)
+    active_example: IntProperty(name="Active example")
+    method: EnumProperty(name="Method", items=[(name, name.capitalize(), text) for name, text in METHODS.items()])
+    report: StringProperty(name="Report", subtype="FILE_PATH", description="Where to write the figures (.json)")
+    page: StringProperty(name="Page", subtype="FILE_PATH", description="Where to write the page to look at (.html)")
+    output: StringProperty(
+        name="Frames", subtype="FILE_PATH", description="Where the command line writes the frames of a saved job"
+    )
+
+
+for _method, _group in SETTINGS_GROUPS.items():
+    FACIALRETARGET_PG_task.__annotations__[_method] = PointerProperty(type=_group)
+
+CLASSES = (
+    FACIALRETARGET_PG_feature_point,
+    FACIALRETARGET_PG_face,
+    FACIALRETARGET_PG_example,
+    *SETTINGS_GROUPS.values(),
+    FACIALRETARGET_PG_task,
+)
+
+
+def register() -> None:
+    """Hang the groups on objects and scenes."""
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    Object.facial_retarget = PointerProperty(type=FACIALRETARGET_PG_face)
+    Scene.facial_retarget = PointerProperty(type=FACIALRETARGET_PG_task)
+
+
+def unregister() -> None:
+    """Take the groups off again; their data stays in the .blend."""
+    del Scene.facial_retarget
+    del Object.facial_retarget
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -1,0 +1,31 @@
+"""What an artist does: one module each."""
+
+import bpy
+
+from . import add_point, create_examples, jobs, list_examples, points_files, remove_point, retarget, show_base
+
+CLASSES = (
+    points_files.FACIALRETARGET_OT_load_points,
+    points_files.FACIALRETARGET_OT_save_points,
+    add_point.FACIALRETARGET_OT_add_point,
+    remove_point.FACIALRETARGET_OT_remove_point,
+    show_base.FACIALRETARGET_OT_show_base,
+    create_examples.FACIALRETARGET_OT_create_examples,
+    list_examples.FACIALRETARGET_OT_add_example,
+    list_examples.FACIALRETARGET_OT_remove_example,
+    retarget.FACIALRETARGET_OT_retarget,
+    jobs.FACIALRETARGET_OT_load_job,
+    jobs.FACIALRETARGET_OT_save_job,
+)
+
+
+def register() -> None:
+    """Make the operators known to Blender."""
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+
+
+def unregister() -> None:
+    """Take them away again."""
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -1,0 +1,62 @@
+"""Load a job file into the scene, and save the scene's task as one."""
+
+from pathlib import Path
+
+from bpy.props import EnumProperty, StringProperty
+from bpy.types import Context, Operator
+from bpy_extras.io_utils import ExportHelper, ImportHelper
+
+from .errors import tells_user
+from .polls import OnTask
+
+
+class FACIALRETARGET_OT_load_job(Operator, ImportHelper):
+    """Load a job file: its faces become objects, its settings the panel's"""
+
+    bl_idname = "facial_retarget.load_job"
+    bl_label = "Load Job"
+    bl_options = {"REGISTER", "UNDO"}
+
+    filename_ext = ".toml"
+    filter_glob: StringProperty(default="*.toml", options={"HIDDEN"})
+    up: EnumProperty(
+        name="Up",
+        items=[("Y", "Y", "The files' faces stand along Y"), ("Z", "Z", "The files' faces stand along Z")],
+        description="Which way is up in the job's files",
+    )
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        """Only in Object Mode."""
+        if context.mode != "OBJECT":
+            cls.poll_message_set("Switch to Object Mode")
+            return False
+        return True
+
+    @tells_user
+    def execute(self, context: Context) -> set[str]:
+        """Read everything, then make the objects."""
+        from ..facial_retarget_addon.bridge.job import load_job
+
+        load_job(context, Path(self.filepath), self.up)
+        return {"FINISHED"}
+
+
+class FACIALRETARGET_OT_save_job(OnTask, Operator, ExportHelper):
+    """Save the task as a job file, with the faces, frames and points that it needs beside it"""
+
+    bl_idname = "facial_retarget.save_job"
+    bl_label = "Save Job"
+
+    filename_ext = ".toml"
+    filter_glob: StringProperty(default="*.toml", options={"HIDDEN"})
+
+    @tells_user
+    def execute(self, context: Context) -> set[str]:
+        """Write the files, the job itself last."""
+        from ..facial_retarget_addon.bridge.background import finished
+        from ..facial_retarget_addon.bridge.job import save_job_steps
+
+        finished(save_job_steps(context, Path(self.filepath)))
+        self.report({"INFO"}, f"Saved {self.filepath}")
+        return {"FINISHED"}

@@ -1,0 +1,47 @@
+"""Put shape keys on the list of examples, and take them off it."""
+
+from bpy.props import StringProperty
+from bpy.types import Context, Event, Operator
+
+from .polls import OnTask
+
+
+class FACIALRETARGET_OT_add_example(OnTask, Operator):
+    """Use a shape key that both faces have as an example"""
+
+    bl_idname = "facial_retarget.add_example"
+    bl_label = "Add Example"
+    bl_options = {"REGISTER", "UNDO"}
+
+    name: StringProperty(name="Shape key", description="Its name on source and target")
+
+    def invoke(self, context: Context, event: Event) -> set[str]:
+        """Ask for the name."""
+        return context.window_manager.invoke_props_dialog(self)
+
+    def execute(self, context: Context) -> set[str]:
+        """Put the name on the list."""
+        examples = context.scene.facial_retarget.examples
+        if not self.name or self.name in examples:
+            self.report({"ERROR"}, f"example {self.name!r} is listed already, expected another shape key's name")
+            return {"CANCELLED"}
+        examples.add().name = self.name
+        return {"FINISHED"}
+
+
+class FACIALRETARGET_OT_remove_example(OnTask, Operator):
+    """Take the chosen example off the list; its shape keys stay"""
+
+    bl_idname = "facial_retarget.remove_example"
+    bl_label = "Remove Example"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context: Context) -> set[str]:
+        """Take the example off that is chosen in the list."""
+        task = context.scene.facial_retarget
+        if task.active_example not in range(len(task.examples)):
+            self.report({"ERROR"}, "there is no example to remove")
+            return {"CANCELLED"}
+        task.examples.remove(task.active_example)
+        task.active_example = max(task.active_example - 1, 0)
+        return {"FINISHED"}

@@ -1,0 +1,55 @@
+"""Load and save the feature points of the active face."""
+
+from pathlib import Path
+
+from bpy.props import StringProperty
+from bpy.types import Context, Operator
+from bpy_extras.io_utils import ExportHelper, ImportHelper
+
+from .errors import tells_user
+from .polls import OnFace
+
+
+class FACIALRETARGET_OT_load_points(OnFace, Operator, ImportHelper):
+    """Replace the feature points of the active face by those of a file"""
+
+    bl_idname = "facial_retarget.load_points"
+    bl_label = "Load Feature Points"
+    bl_options = {"REGISTER", "UNDO"}
+
+    filename_ext = ".json"
+    filter_glob: StringProperty(default="*.json", options={"HIDDEN"})
+
+    @tells_user
+    def execute(self, context: Context) -> set[str]:
+        """Read, check against the mesh, then replace."""
+        from ..facial_retarget_addon.bridge.meshes import neutral_mesh
+        from ..facial_retarget_addon.bridge.points import write_points
+        from ..facial_retarget_addon.files.points import read_points
+
+        thing = context.active_object
+        points = read_points(Path(self.filepath), neutral_mesh(thing))
+        write_points(thing, points)
+        self.report({"INFO"}, f"{len(points)} feature points on {thing.name}")
+        return {"FINISHED"}
+
+
+class FACIALRETARGET_OT_save_points(OnFace, Operator, ExportHelper):
+    """Save the feature points of the active face to a file"""
+
+    bl_idname = "facial_retarget.save_points"
+    bl_label = "Save Feature Points"
+
+    filename_ext = ".json"
+    filter_glob: StringProperty(default="*.json", options={"HIDDEN"})
+
+    @tells_user
+    def execute(self, context: Context) -> set[str]:
+        """Write the file, whole or not at all."""
+        from ..facial_retarget_addon.bridge.points import read_points
+        from ..facial_retarget_addon.files.points import write_points
+
+        points = read_points(context.active_object)
+        write_points(points, Path(self.filepath))
+        self.report({"INFO"}, f"{len(points)} feature points saved")
+        return {"FINISHED"}

@@ -1,0 +1,36 @@
+"""When an operator can run; what is missing stands in its tooltip."""
+
+from bpy.types import Context
+
+
+class OnFace:
+    """For operators on the active mesh object."""
+
+    modes = ("OBJECT",)
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        """A mesh object must be active, in a mode that the operator can work in."""
+        if context.active_object is None or context.active_object.type != "MESH":
+            cls.poll_message_set("Select a mesh object: the source or the target face")
+            return False
+        if context.mode not in cls.modes:
+            cls.poll_message_set("Switch to Object Mode")
+            return False
+        return True
+
+
+class OnTask:
+    """For operators on source and target."""
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        """Source and target must be chosen, in Object Mode."""
+        task = context.scene.facial_retarget
+        if task.source is None or task.target is None:
+            cls.poll_message_set("Choose a source and a target under Faces")
+            return False
+        if context.mode != "OBJECT":
+            cls.poll_message_set("Switch to Object Mode")
+            return False
+        return True

@@ -1,0 +1,23 @@
+"""Remove a feature point from the active face."""
+
+from bpy.types import Context, Operator
+
+from .polls import OnFace
+
+
+class FACIALRETARGET_OT_remove_point(OnFace, Operator):
+    """Remove the chosen feature point from the active face"""
+
+    bl_idname = "facial_retarget.remove_point"
+    bl_label = "Remove Feature Point"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context: Context) -> set[str]:
+        """Remove the point that is chosen in the list."""
+        face = context.active_object.facial_retarget
+        if face.active_point not in range(len(face.points)):
+            self.report({"ERROR"}, f"{context.active_object.name} has no feature point to remove")
+            return {"CANCELLED"}
+        face.points.remove(face.active_point)
+        face.active_point = max(face.active_point - 1, 0)
+        return {"FINISHED"}

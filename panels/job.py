@@ -1,0 +1,21 @@
+"""Job files, for the command line."""
+
+from bpy.types import Context, Panel
+
+from .tab import RetargetTab
+
+
+class FACIALRETARGET_PT_job(RetargetTab, Panel):
+    """Save the task as a job file, or load one."""
+
+    bl_label = "Job"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: Context) -> None:
+        """Draw the panel."""
+        layout = self.layout
+        layout.use_property_split = True
+        layout.prop(context.scene.facial_retarget, "output")
+        row = layout.row(align=True)
+        row.operator("facial_retarget.load_job")
+        row.operator("facial_retarget.save_job")
