@@ -12,6 +12,10 @@ from ..core.errors import RetargetError
 from ..core.mesh import TriMesh
 
 
+FARTHEST = 1e18
+"""No position of a mesh is farther from the origin: its square still fits into float32."""
+
+
 @dataclass(frozen=True, eq=False)
 class MeshFile:
     """A mesh as it stands in a file.
@@ -40,8 +44,12 @@ class MeshFile:
         RetargetError : if the mesh is empty, has vertices that are not finite, polygons with fewer than three
             corners, or corners that are no vertex; the message starts with the path.
         """
-        if len(vertices) and not np.isfinite(vertices).all():
-            TriMesh(vertices, np.zeros((1, 3), np.int64)).checked(str(path))
+        bad = np.flatnonzero(~(np.abs(vertices) < FARTHEST).all(axis=1))
+        if len(bad):
+            raise RetargetError(
+                f"{path} has {len(bad)} vertices that are NaN, infinite or farther than {FARTHEST:g}, the first is "
+                f"vertex {bad[0]}; expected finite positions"
+            )
         try:
             mesh = TriMesh.from_polygons(vertices, counts, corners)
         except RetargetError as error:
