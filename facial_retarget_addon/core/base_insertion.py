@@ -14,9 +14,7 @@ _RIM = 0.02
 """A point whose weight inside a border triangle is below this lies on the border or outside."""
 
 
-def insert_points(
-    faces: IntArray, rows: IntArray, positions: Sequence[FloatArray]
-) -> tuple[IntArray, list[int]]:
+def insert_points(faces: IntArray, rows: IntArray, positions: Sequence[FloatArray]) -> IntArray:
     """Triangulation with more of the points as vertices.
 
     Each point splits the triangle that is nearest to it on all faces together; edges are then flipped until
@@ -30,20 +28,18 @@ def insert_points(
 
     Returns
     -------
-    faces (F + 2 K', 3), and the points that lie outside and were not inserted.
+    (F + 2 K', 3); points on the border or outside are in no triangle.
     """
     scaled = [p / _mean_edge(p, faces) for p in positions]
-    outside: list[int] = []
     for row in rows.tolist():
         weights, gap = _nearest(faces, row, scaled)
         best = int(np.argmin(gap))
         if _on_border(faces, best, weights[best]):
-            outside.append(row)
             continue
         a, b, c = faces[best].tolist()
         faces = np.concatenate([np.delete(faces, best, axis=0), [[a, b, row], [b, c, row], [c, a, row]]])
         faces = _flip_around(faces, row, scaled)
-    return faces, outside
+    return faces
 
 
 def _mean_edge(positions: FloatArray, faces: IntArray) -> float:

@@ -13,6 +13,7 @@ import numpy as np
 
 from .arrays import FloatArray, IntArray, unit_vectors
 from .base_insertion import insert_points
+from .base_regions import dual_triangulation
 from .base_triangulations import STANDARD
 from .errors import RetargetError
 from .mesh import TriMesh
@@ -109,13 +110,12 @@ def base_mesh(
     else:
         standard = next((t for t in STANDARD if {n for corner in t for n in corner} <= set(names)), None)
         if standard is None:
-            raise RetargetError(
-                f"{len(names)} common feature points hold no standard set, expected one of the standard sets"
-            )
-        rows = _rows(standard, names)
-        extra = np.setdiff1d(np.arange(len(names)), rows)
-        rows, outside = insert_points(rows, extra, [face.positions for face in faces_of])
-        left_out = [names[k] for k in outside]
+            rows = dual_triangulation(source_mesh, source_points.subset(names))
+        else:
+            rows = _rows(standard, names)
+            extra = np.setdiff1d(np.arange(len(names)), rows)
+            rows = insert_points(rows, extra, [face.positions for face in faces_of])
+        left_out = [names[k] for k in np.setdiff1d(np.arange(len(names)), rows)]
     _check_manifold(rows, names)
     used = np.unique(rows)
     compact = np.searchsorted(used, rows)
