@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+from itertools import chain
 from typing import NamedTuple
 
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .arrays import BoolArray, FloatArray, IntArray
+from .arrays import FloatArray, IntArray
 from .errors import RetargetError
 from .mesh import TriMesh
 
@@ -62,8 +64,9 @@ def _dot(a: FloatArray, b: FloatArray) -> FloatArray:
 class SurfaceFinder:
     """Finds the closest point of a surface for many points, optionally only where normals agree.
 
-    Exact: triangles are kept in classes of similar size, and a class is searched until its next
-    centroid is too far away to hold a closer point.
+    Exact: large triangles stand in the search as several pieces of like size, and a search goes on until the next
+    piece is too far away to hold a closer point. Points that see no agreeing face nearby go on to search the faces
+    by the octants of their normals, where most candidates agree.
     """
 
     def __init__(self, mesh: TriMesh, faces: IntArray | None = None) -> None:
@@ -72,15 +75,14 @@ class SurfaceFinder:
         if not len(chosen):
             raise RetargetError("a surface without faces has no closest point")
         self._mesh = mesh
+        self._faces = chosen
         self._corners = mesh.vertices[mesh.faces]
-        centre = self._corners.mean(axis=1)
-        radius = np.linalg.norm(self._corners - centre[:, None], axis=2).max(axis=1)
-        size_class = np.floor(np.log2(np.maximum(radius[chosen], 1e-12 * max(mesh.size, 1e-300)))).astype(int)
-        self._classes = []
-        for value in np.unique(size_class):
-            members = chosen[size_class == value]
-            self._classes.append((members, cKDTree(centre[members]), float(radius[members].max())))
-        self._classes.sort(key=lambda entry: -len(entry[0]))
+        self._whole = _Pieces(self._corners, chosen)
+
+    @cached_property
+    def _octants(self) -> dict[int, _Pieces]:
+        octant = (self._mesh.face_normals[self._faces] > 0) @ _OCTANT
+        return {int(k): _Pieces(self._corners, self._faces[octant == k]) for k in np.unique(octant)}
 
     def closest(
         self,
@@ -98,53 +100,158 @@ class SurfaceFinder:
         agreement : smallest dot product of the two normals that agrees.
         limit : places farther away than this do not count.
         """
-        points = np.asarray(points, np.float64)
-        best = np.full(len(points), np.inf if np.isinf(limit) else limit**2)
-        face = np.full(len(points), -1, np.int64)
-        weights = np.zeros((len(points), 3))
-        for members, tree, radius in self._classes:
-            active = np.arange(len(points))
-            done, take = 0, min(8, len(members))
-            while len(active):
-                reach = np.sqrt(best[active]) + radius
-                distance, rank = tree.query(points[active], k=np.arange(done + 1, take + 1))
-                near = np.isfinite(distance) & (distance <= reach[:, None])
-                self._improve(points, normals, agreement, active, members, rank, near, best, face, weights)
-                if take == len(members):
-                    break
-                active = active[distance[:, -1] <= np.sqrt(best[active]) + radius]
-                done, take = take, min(4 * take, len(members))
-        point = np.einsum("nk,nkc->nc", weights, self._corners[face])
-        return Nearest(np.where(face >= 0, np.sqrt(best), np.inf), face, weights, np.where(face[:, None] >= 0, point, 0.0))
+        points = np.ascontiguousarray(points, np.float64)
+        search = _Search(self._mesh, self._corners, points, normals, agreement, limit)
+        rest = search.run(self._whole, np.arange(len(points)), _NEIGHBOURS if normals is not None else len(self._faces))
+        if len(rest) and normals is not None:
+            own = (normals[rest] > 0) @ _OCTANT
+            for octant, pieces in self._octants.items():
+                search.run(pieces, rest[own == octant], len(pieces.face))
+            for octant, pieces in self._octants.items():
+                search.run(pieces, rest[own != octant], len(pieces.face))
+        return search.result()
 
-    def _improve(
+
+_NEIGHBOURS = 24
+_FIRST = 6
+_OCTANT = np.array([1, 2, 4])
+_BLOCK = 1 << 21
+
+
+class _Pieces:
+    """Faces cut into pieces of like size, and a tree of their centres."""
+
+    def __init__(self, corners: FloatArray, faces: IntArray) -> None:
+        piece, face = corners[faces], faces
+        radius = _radius(piece)
+        largest = 1.5 * np.median(radius)
+        done_piece, done_face = [], []
+        while len(piece):
+            # Cutting more than some 2^7 pieces from one triangle costs more than a wide search.
+            large = (radius > largest) & (len(done_piece) < 7)
+            done_piece.append(piece[~large])
+            done_face.append(face[~large])
+            piece, face = _halves(piece[large]), np.repeat(face[large], 2)
+            radius = _radius(piece)
+        piece = np.concatenate(done_piece)
+        self.face = np.concatenate(done_face)
+        self.radius = _radius(piece)
+        self.largest = float(self.radius.max())
+        self.tree = cKDTree(piece.mean(axis=1))
+
+
+def _radius(pieces: FloatArray) -> FloatArray:
+    """(N,) distance of the farthest corner from the centre of triangles (N, 3, 3)."""
+    gap = pieces - pieces.mean(axis=1, keepdims=True)
+    radius: FloatArray = np.sqrt(np.einsum("nkc,nkc->nk", gap, gap).max(axis=1, initial=0))
+    return radius
+
+
+def _blocks(rows: IntArray, size: int) -> list[IntArray]:
+    return [rows[start : start + size] for start in range(0, len(rows), size)]
+
+
+def _halves(triangles: FloatArray) -> FloatArray:
+    """(2N, 3, 3) both halves of triangles (N, 3, 3), cut at the middle of their longest sides."""
+    side = triangles[:, [1, 2, 0]] - triangles
+    first = np.einsum("nkc,nkc->nk", side, side).argmax(axis=1)
+    a, b, c = (triangles[np.arange(len(triangles)), (first + k) % 3] for k in range(3))
+    middle = 0.5 * (a + b)
+    return np.stack([np.stack([a, middle, c], axis=1), np.stack([middle, b, c], axis=1)], axis=1).reshape(-1, 3, 3)
+
+
+class _Search:
+    """The best places found so far."""
+
+    def __init__(
         self,
+        mesh: TriMesh,
+        corners: FloatArray,
         points: FloatArray,
         normals: FloatArray | None,
         agreement: float,
-        active: IntArray,
-        members: IntArray,
-        rank: IntArray,
-        near: BoolArray,
-        best: FloatArray,
-        face: IntArray,
-        weights: FloatArray,
+        limit: float,
     ) -> None:
-        """Try the candidates (rows of `active`, columns of `rank`) marked near; keep what is closer."""
-        row, column = np.nonzero(near)
-        candidate = members[rank[row, column]]
-        if normals is not None:
-            agree = _dot(self._mesh.face_normals[candidate], normals[active[row]]) >= agreement
-            row, candidate = row[agree], candidate[agree]
-        if not len(row):
-            return
-        query = active[row]
-        corners = self._corners[candidate]
-        place = closest_on_triangles(points[query], corners)
-        gap = np.einsum("nk,nkc->nc", place, corners) - points[query]
-        squared = _dot(gap, gap)
-        order = np.lexsort((candidate, squared, query))
+        self._mesh, self._corners = mesh, corners
+        self._points, self._normals, self._agreement = points, normals, agreement
+        self._best = np.full(len(points), float(limit))
+        self._face = np.full(len(points), -1, np.int64)
+        self._weights = np.zeros((len(points), 3))
+
+    def run(self, pieces: _Pieces, active: IntArray, most: int) -> IntArray:
+        """Search the pieces for the points `active`; gives back the points that agree with none of `most` neighbours.
+
+        The nearest pieces give a first bound; the pieces that may be closer than it are then tried once each.
+        """
+        bound = self._face[active] >= 0
+        self._sweep(pieces, active[bound])
+        active = active[~bound]
+        done, take, total = 0, _FIRST, len(pieces.face)
+        most = min(most, total)
+        while len(active) and done < most:
+            take = min(take, most)
+            left = []
+            for rows in _blocks(active, max(1, _BLOCK // take)):
+                distance, rank = pieces.tree.query(self._points[rows], k=np.arange(done + 1, take + 1))
+                untried = self._improve(pieces, rows, distance, rank)
+                unseen = distance[:, -1] - pieces.largest
+                unbound = self._face[rows] < 0
+                left.append(rows[unbound & (unseen < self._best[rows])])
+                self._sweep(pieces, rows[~unbound & (np.minimum(untried, unseen) < self._best[rows])])
+            active = np.concatenate(left)
+            done, take = take, 4 * take
+        return active if most < total else active[:0]
+
+    def _sweep(self, pieces: _Pieces, rows: IntArray) -> None:
+        """Try every piece that may hold a closer place for the points `rows`, which have a bound."""
+        for some in _blocks(rows, 4096):
+            reach = self._best[some] + pieces.largest
+            near = pieces.tree.query_ball_point(self._points[some], reach, return_sorted=False)
+            size = np.fromiter(map(len, near), np.int64, len(some))
+            rank = np.fromiter(chain.from_iterable(near), np.int64, int(size.sum()))
+            query, face = np.repeat(some, size), pieces.face[rank]
+            gap = self._points[query] - pieces.tree.data[rank]
+            may = np.flatnonzero(_dot(gap, gap) < (self._best[query] + pieces.radius[rank]) ** 2)
+            if self._normals is not None:
+                agree = _dot(self._mesh.face_normals[face[may]], self._normals[query[may]]) >= self._agreement
+                may = may[agree]
+            self._try(query[may], face[may])
+
+    def _improve(self, pieces: _Pieces, rows: IntArray, distance: FloatArray, rank: IntArray) -> FloatArray:
+        """Try the two nearest agreeing ones of the pieces `rank` (N, K); the least distance of the others, (N,)."""
+        face = pieces.face[rank]
+        bound = distance - pieces.radius[rank]
+        if self._normals is not None:
+            agree = np.einsum("nkc,nc->nk", self._mesh.face_normals[face], self._normals[rows]) >= self._agreement
+            bound[~agree] = np.inf
+        at = np.arange(len(rows))
+        for _ in range(2):
+            first = bound.argmin(axis=1)
+            agreeing = np.isfinite(bound[at, first])
+            self._try(rows[agreeing], face[at, first][agreeing])
+            bound[at, first] = np.inf
+        least: FloatArray = bound.min(axis=1)
+        return least
+
+    def _try(self, query: IntArray, face: IntArray) -> None:
+        """Exact distances of faces (M,) from the points `query` (M,); the closest are kept, lower face first."""
+        gap = self._points[query] - self._corners[face, 0]
+        height = np.abs(np.einsum("nc,nc->n", gap, self._mesh.face_normals[face]))
+        may = height < self._best[query]
+        query, face = query[may], face[may]
+        corners = self._corners[face]
+        place = closest_on_triangles(self._points[query], corners)
+        gap = np.einsum("nk,nkc->nc", place, corners) - self._points[query]
+        distance = np.sqrt(_dot(gap, gap))
+        order = np.lexsort((face, distance, query))
         first = order[np.unique(query[order], return_index=True)[1]]
-        closer = first[squared[first] < best[query[first]]]
-        best[query[closer]], face[query[closer]] = squared[closer], candidate[closer]
-        weights[query[closer]] = place[closer]
+        closer = first[distance[first] < self._best[query[first]]]
+        kept = query[closer]
+        self._best[kept], self._face[kept], self._weights[kept] = distance[closer], face[closer], place[closer]
+
+    def result(self) -> Nearest:
+        found = self._face >= 0
+        point = np.einsum("nk,nkc->nc", self._weights, self._corners[self._face])
+        return Nearest(
+            np.where(found, self._best, np.inf), self._face, self._weights, np.where(found[:, None], point, 0.0)
+        )

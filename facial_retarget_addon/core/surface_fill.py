@@ -39,7 +39,8 @@ def harmonic_fill(mesh: TriMesh, known: BoolArray, active: BoolArray, cut: float
         degree = np.asarray(graph[free].sum(axis=1)).ravel()
         # A trace of the identity keeps pieces without a known vertex solvable; their rows come out zero.
         system = sp.diags(degree * (1 + 1e-9) + 1e-9 * degree.mean()) - inside
-        solver = splu(system.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+        symmetric = {"SymmetricMode": True}
+        solver = splu(system.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=symmetric)
         weights = _solve_sparse(solver, between, cut)
         rows.append(free[weights.row])
         columns.append(rim[weights.col])
