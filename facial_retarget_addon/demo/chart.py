@@ -1,0 +1,253 @@
+"""The chart that every built-in face is drawn on, and the meshes laid over it.
+
+A chart place (x, y) is a material point: the same place is the same bit of skin on every built-in
+face, so correspondences are exact whatever the meshes are. One unit is about one eye separation, x
+runs to the face's left, y up, the pupils' line is y = 0. The eyes and the mouth are lenses cut out of
+the chart: two arcs of circles that meet in the corners.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.spatial import Delaunay, cKDTree
+
+from ..core.arrays import FloatArray, IntArray
+
+
+@dataclass(frozen=True)
+class Lens:
+    """An opening: upper and lower arc between two corners on one height.
+
+    Attributes
+    ----------
+    x, y : middle between the corners.
+    half_width : from there to a corner.
+    upper, lower : heights of the arcs above and below the corners' line, greater than zero.
+    """
+
+    x: float
+    y: float
+    half_width: float
+    upper: float
+    lower: float
+
+    def arc(self, u: FloatArray, upper: bool) -> FloatArray:
+        """Places (N, 2) of an arc at u (N,), -1 at the right corner (-x) to 1 at the left."""
+        sagitta = self.upper if upper else self.lower
+        radius, centre = _circle(self.half_width, sagitta)
+        x = self.half_width * np.clip(u, -1.0, 1.0)
+        height = np.sqrt(np.maximum(radius**2 - x**2, 0.0)) + centre
+        return np.stack([self.x + x, self.y + (height if upper else -height)], axis=-1)
+
+    def distances(self, places: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Signed distances (N,), (N,) of places (N, 2) from the discs whose arcs are the upper and lower rim."""
+        dx, dy = places[:, 0] - self.x, places[:, 1] - self.y
+        found = []
+        for side, sagitta in ((1.0, self.upper), (-1.0, self.lower)):
+            radius, centre = _circle(self.half_width, sagitta)
+            found.append(np.hypot(dx, side * dy - centre) - radius)
+        return found[0], found[1]
+
+    def distance(self, places: FloatArray) -> FloatArray:
+        """Distance (N,) of places (N, 2) from the opening, zero on its rim and negative inside."""
+        beyond = np.maximum(np.abs(places[:, 0] - self.x) - self.half_width, 0.0)
+        nearest = np.maximum(*self.distances(places))
+        return np.where(beyond > 0, np.hypot(beyond, np.maximum(nearest, 0.0)), nearest)
+
+    def side(self, places: FloatArray) -> FloatArray:
+        """Which lid or lip a place (N, 2) belongs to: (N,) 1 above, -1 below, turning smoothly beyond the corners."""
+        dx, dy = places[:, 0] - self.x, places[:, 1] - self.y
+        beyond = np.maximum(np.abs(dx) - self.half_width, 0.0)
+        return dy / np.sqrt(dy**2 + beyond**2 + 1e-12)
+
+
+def _circle(half_width: float, sagitta: float) -> tuple[float, float]:
+    """Radius of the circle through both corners and the arc's top, and the height of its centre."""
+    radius = (half_width**2 + sagitta**2) / (2 * sagitta)
+    return radius, sagitta - radius
+
+
+LEFT_EYE = Lens(0.525, -0.005, 0.235, 0.092, 0.058)
+RIGHT_EYE = Lens(-0.525, -0.005, 0.235, 0.092, 0.058)
+MOUTH = Lens(0.0, -1.075, 0.385, 0.022, 0.022)
+OPENINGS = (LEFT_EYE, RIGHT_EYE, MOUTH)
+
+_LOW = np.array([-1.72, -2.55])
+_HIGH = np.array([1.72, 1.12])
+_ON_RIM = 1e-6
+_MARGINS = (0.135, 0.135, 0.20)
+"""How far the ring zone reaches around each opening."""
+
+
+@dataclass(frozen=True, eq=False)
+class Layout:
+    """A mesh of the chart.
+
+    Attributes
+    ----------
+    places : (V, 2) chart places of the vertices.
+    polygons : (P, 3 or 4) corners, counter-clockwise.
+    """
+
+    places: FloatArray
+    polygons: IntArray
+
+    def pinned(self, places: FloatArray) -> tuple[Layout, IntArray]:
+        """Return this mesh with a vertex on each of some places (N, 2), and those vertices (N,).
+
+        The nearest vertex is moved there; on an opening's rim, the nearest one of the rim.
+        """
+        rim = np.min([np.abs(lens.distance(self.places)) for lens in OPENINGS], axis=0) < _ON_RIM
+        wanted = np.min([np.abs(lens.distance(places)) for lens in OPENINGS], axis=0) < _ON_RIM
+        vertices = np.empty(len(places), np.int64)
+        for kind in (True, False):
+            free = np.flatnonzero(rim == kind)
+            vertices[wanted == kind] = free[cKDTree(self.places[free]).query(places[wanted == kind])[1]]
+        moved = self.places.copy()
+        moved[vertices] = places
+        return Layout(self._relaxed(moved, vertices), self.polygons), vertices
+
+    def _relaxed(self, places: FloatArray, pinned: IntArray) -> FloatArray:
+        """Places after the neighbours of the pinned vertices have made room."""
+        links = _links(self.polygons, len(places))
+        near = np.zeros(len(places), bool)
+        near[pinned] = True
+        near = links @ (links @ near) > 0
+        near[pinned] = False
+        near[np.min([np.abs(lens.distance(places)) for lens in OPENINGS], axis=0) < _ON_RIM] = False
+        near[_border(self.polygons)] = False
+        rows = np.flatnonzero(near)
+        mean = sp.diags(1.0 / links.sum(axis=1).A1) @ links
+        for _ in range(3):
+            places[rows] = (mean @ places)[rows]
+        return places
+
+
+def _links(polygons: IntArray, count: int) -> sp.csr_matrix:
+    """(V, V) matrix of ones where an edge joins two vertices."""
+    start, end = polygons.ravel(), np.roll(polygons, -1, axis=1).ravel()
+    one_way = sp.coo_matrix((np.ones(len(start)), (start, end)), shape=(count, count))
+    return ((one_way + one_way.T) > 0).astype(np.float64).tocsr()
+
+
+def _border(polygons: IntArray) -> IntArray:
+    """Vertices on edges of one polygon only."""
+    edges = np.sort(np.stack([polygons, np.roll(polygons, -1, axis=1)], axis=-1).reshape(-1, 2), axis=1)
+    unique, count = np.unique(edges, axis=0, return_counts=True)
+    return np.unique(unique[count == 1])
+
+
+def ringed_layout(columns: int, rows: int, rings: int) -> Layout:
+    """A grid of quads whose lines run in rings around the openings.
+
+    Parameters
+    ----------
+    columns, rows : quads of the grid across and along the whole chart.
+    rings : quads between an opening's rim and the grid.
+    """
+    x = np.linspace(_LOW[0], _HIGH[0], columns + 1)
+    y = np.linspace(_LOW[1], _HIGH[1], rows + 1)
+    places = [_rounded(np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2))]
+    index = np.arange((rows + 1) * (columns + 1)).reshape(rows + 1, columns + 1)
+    keep = np.ones((rows, columns), bool)
+    quads = []
+    count = index.size
+    for lens, margin in zip(OPENINGS, _MARGINS, strict=True):
+        left, right = (_nearest(x, lens.x + s * (lens.half_width + margin)) for s in (-1.0, 1.0))
+        bottom, top = _nearest(y, lens.y - lens.lower - margin), _nearest(y, lens.y + lens.upper + margin)
+        keep[bottom:top, left:right] = False
+        loop, upper = _block_loop(index, left, right, bottom, top, _nearest(y, lens.y))
+        rim = _rim(lens, upper, len(loop) - upper)
+        outer = places[0][loop]
+        # Rings lie closer together near the rim, where the lid or lip rolls in.
+        share = (np.arange(1, rings + 1) / rings)[:, None, None] ** 1.4
+        inner = rim + (outer - rim) * np.concatenate([np.zeros((1, 1, 1)), share[:-1]])
+        ring = np.concatenate([count + np.arange(rings * len(loop)).reshape(rings, -1), loop[None]])
+        after = np.roll(ring, -1, axis=1)
+        quads.append(np.stack([ring[:-1], ring[1:], after[1:], after[:-1]], axis=-1).reshape(-1, 4))
+        places.append(inner.reshape(-1, 2))
+        count += rings * len(loop)
+    cells = np.stack([index[:-1, :-1], index[:-1, 1:], index[1:, 1:], index[1:, :-1]], axis=-1)
+    return _compact(np.concatenate(places), np.concatenate([cells[keep], *quads]))
+
+
+def scattered_layout(spacing: float, rng: np.random.Generator) -> Layout:
+    """Triangles over scattered vertices, without lines or rings.
+
+    Parameters
+    ----------
+    spacing : distance between neighbours in chart units.
+    rng : where the scatter comes from.
+    """
+    count = np.ceil((_HIGH - _LOW) / (spacing * np.array([1.0, np.sqrt(0.75)]))).astype(int)
+    column, row = np.meshgrid(np.arange(count[0] + 1), np.arange(count[1] + 1))
+    grid = np.stack([(column + 0.5 * (row % 2)) / (count[0] + 0.5), row / count[1]], axis=-1).reshape(-1, 2)
+    border = (
+        (grid.min(axis=1) < 1e-9) | (column.ravel() == 0) | (column.ravel() == count[0]) | (row.ravel() == count[1])
+    )
+    inside = ~border
+    grid[inside] += rng.uniform(-0.22, 0.22, (inside.sum(), 2)) / count
+    grid[border & (column.ravel() == 0), 0] = 0.0
+    grid[border & (column.ravel() == count[0]), 0] = 1.0
+    places = _rounded(_LOW + grid * (_HIGH - _LOW))
+    rims = [_rim(lens, *(2 * [round(2.4 * lens.half_width / spacing)])) for lens in OPENINGS]
+    clear = np.min([lens.distance(places) for lens in OPENINGS], axis=0) > 0.6 * spacing
+    places = np.concatenate([*rims, places[clear]])
+    on_border = np.concatenate([np.zeros(sum(map(len, rims)), bool), border[clear]])
+    triangles = Delaunay(places).simplices.astype(np.int64)
+    corners = places[triangles]
+    middle = corners.mean(axis=1)
+    area = np.linalg.det(corners[:, 1:] - corners[:, :1])
+    triangles[area < 0] = triangles[area < 0][:, ::-1]
+    outside = np.min([lens.distance(middle) for lens in OPENINGS], axis=0) > 0
+    sliver = on_border[triangles].all(axis=1) & (np.abs(area) < 0.02 * spacing**2)
+    return _compact(places, triangles[outside & ~sliver])
+
+
+def _nearest(lines: FloatArray, value: float) -> int:
+    return int(np.argmin(np.abs(lines - value)))
+
+
+def _rounded(places: FloatArray) -> FloatArray:
+    """Places of the rectangle drawn into an outline with round corners."""
+    middle, half = 0.5 * (_LOW + _HIGH), 0.5 * (_HIGH - _LOW)
+    u, v = ((places - middle) / half).T
+    corner = (u * v) ** 2
+    return middle + half * np.stack([u * (1.0 - 0.17 * corner), v * (1.0 - 0.14 * corner)], axis=1)
+
+
+def _block_loop(index: IntArray, left: int, right: int, bottom: int, top: int, middle: int) -> tuple[IntArray, int]:
+    """Vertices around a block of the grid, counter-clockwise from the middle of its left (+x) side.
+
+    Also the number of steps from there over the top to the other side's middle.
+    """
+    loop = np.concatenate(
+        [
+            index[middle:top, right],
+            index[top, right:left:-1],
+            index[top:bottom:-1, left],
+            index[bottom, left:right],
+            index[bottom:middle, right],
+        ]
+    )
+    return loop, 2 * (top - middle) + right - left
+
+
+def _rim(lens: Lens, upper: int, lower: int) -> FloatArray:
+    """Places around an opening: `upper` steps from the left (+x) corner over the upper arc, `lower` back."""
+    over, back = (_spread(np.linspace(-1.0, 1.0, count + 1)[:-1]) for count in (upper, lower))
+    return np.concatenate([lens.arc(-over, True), lens.arc(back, False)])
+
+
+def _spread(t: FloatArray) -> FloatArray:
+    """Places from -1 to 1, closer together at both ends."""
+    spread: FloatArray = 0.5 * (t + np.sin(0.5 * np.pi * t))
+    return spread
+
+
+def _compact(places: FloatArray, polygons: IntArray) -> Layout:
+    used, corners = np.unique(polygons, return_inverse=True)
+    return Layout(places[used], corners.reshape(polygons.shape).astype(np.int64))
