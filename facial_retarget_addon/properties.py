@@ -31,21 +31,21 @@ def _is_mesh(_: PropertyGroup, candidate: Object) -> bool:
     return candidate.type == "MESH"
 
 
-class FACIALRETARGET_PG_feature_point(PropertyGroup):
+class FACIAL_RETARGET_PG_feature_point(PropertyGroup):
     """A named place on the object's surface: three vertices and their weights. `name` is inherited."""
 
     vertices: IntVectorProperty(name="Vertices", size=3, min=0)
     weights: FloatVectorProperty(name="Weights", size=3, default=(1.0, 0.0, 0.0), precision=4)
 
 
-class FACIALRETARGET_PG_face(PropertyGroup):
+class FACIAL_RETARGET_PG_face(PropertyGroup):
     """What an object knows as a face."""
 
-    points: CollectionProperty(type=FACIALRETARGET_PG_feature_point)
+    points: CollectionProperty(type=FACIAL_RETARGET_PG_feature_point)
     active_point: IntProperty(name="Active feature point")
 
 
-class FACIALRETARGET_PG_example(PropertyGroup):
+class FACIAL_RETARGET_PG_example(PropertyGroup):
     """An example expression: the shape key of this name on both faces. `name` is inherited."""
 
 
@@ -66,7 +66,7 @@ def _property(setting: Field) -> Any:
 def _settings_group(method: str) -> type[PropertyGroup]:
     """The property group of a method's settings."""
     annotations = {setting.name: _property(setting) for setting in fields(SETTINGS[method])}
-    name = f"FACIALRETARGET_PG_{method}"
+    name = f"FACIAL_RETARGET_PG_{method}"
     body = {"__doc__": SETTINGS[method].__doc__, "__module__": __name__, "__annotations__": annotations}
     return type(name, (PropertyGroup,), body)
 
@@ -75,7 +75,7 @@ SETTINGS_GROUPS = {method: _settings_group(method) for method in SETTINGS}
 """Method name -> the property group of its settings; on the scene's group it has the method's name."""
 
 
-class FACIALRETARGET_PG_task(PropertyGroup):
+class FACIAL_RETARGET_PG_task(PropertyGroup):
     """One retargeting task: the panel, and what a job file holds."""
 
     source: PointerProperty(name="Source", type=Object, poll=_is_mesh, description="The face that moves")
@@ -97,7 +97,7 @@ class FACIALRETARGET_PG_task(PropertyGroup):
         poll=_is_mesh,
         description="A base mesh of your own: show the base mesh, change its triangles, choose it here",
     )
-    examples: CollectionProperty(type=FACIALRETARGET_PG_example)
+    examples: CollectionProperty(type=FACIAL_RETARGET_PG_example)
     active_example: IntProperty(name="Active example")
     method: EnumProperty(name="Method", items=[(name, name.capitalize(), text) for name, text in METHODS.items()])
     report: StringProperty(name="Report", subtype="FILE_PATH", description="Where to write the figures (.json)")
@@ -108,14 +108,14 @@ class FACIALRETARGET_PG_task(PropertyGroup):
 
 
 for _method, _group in SETTINGS_GROUPS.items():
-    FACIALRETARGET_PG_task.__annotations__[_method] = PointerProperty(type=_group)
+    FACIAL_RETARGET_PG_task.__annotations__[_method] = PointerProperty(type=_group)
 
 CLASSES = (
-    FACIALRETARGET_PG_feature_point,
-    FACIALRETARGET_PG_face,
-    FACIALRETARGET_PG_example,
+    FACIAL_RETARGET_PG_feature_point,
+    FACIAL_RETARGET_PG_face,
+    FACIAL_RETARGET_PG_example,
     *SETTINGS_GROUPS.values(),
-    FACIALRETARGET_PG_task,
+    FACIAL_RETARGET_PG_task,
 )
 
 
@@ -123,8 +123,8 @@ def register() -> None:
     """Hang the groups on objects and scenes."""
     for cls in CLASSES:
         bpy.utils.register_class(cls)
-    Object.facial_retarget = PointerProperty(type=FACIALRETARGET_PG_face)
-    Scene.facial_retarget = PointerProperty(type=FACIALRETARGET_PG_task)
+    Object.facial_retarget = PointerProperty(type=FACIAL_RETARGET_PG_face)
+    Scene.facial_retarget = PointerProperty(type=FACIAL_RETARGET_PG_task)
 
 
 def unregister() -> None:

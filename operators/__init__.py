@@ -5,17 +5,17 @@ import bpy
 from . import add_point, create_examples, jobs, list_examples, points_files, remove_point, retarget, show_base
 
 CLASSES = (
-    points_files.FACIALRETARGET_OT_load_points,
-    points_files.FACIALRETARGET_OT_save_points,
-    add_point.FACIALRETARGET_OT_add_point,
-    remove_point.FACIALRETARGET_OT_remove_point,
-    show_base.FACIALRETARGET_OT_show_base,
-    create_examples.FACIALRETARGET_OT_create_examples,
-    list_examples.FACIALRETARGET_OT_add_example,
-    list_examples.FACIALRETARGET_OT_remove_example,
-    retarget.FACIALRETARGET_OT_retarget,
-    jobs.FACIALRETARGET_OT_load_job,
-    jobs.FACIALRETARGET_OT_save_job,
+    points_files.FACIAL_RETARGET_OT_load_points,
+    points_files.FACIAL_RETARGET_OT_save_points,
+    add_point.FACIAL_RETARGET_OT_add_point,
+    remove_point.FACIAL_RETARGET_OT_remove_point,
+    show_base.FACIAL_RETARGET_OT_show_base,
+    create_examples.FACIAL_RETARGET_OT_create_examples,
+    list_examples.FACIAL_RETARGET_OT_add_example,
+    list_examples.FACIAL_RETARGET_OT_remove_example,
+    retarget.FACIAL_RETARGET_OT_retarget,
+    jobs.FACIAL_RETARGET_OT_load_job,
+    jobs.FACIAL_RETARGET_OT_save_job,
 )
 
 

@@ -7,7 +7,7 @@ from .errors import tells_user
 from .polls import OnFace
 
 
-class FACIALRETARGET_OT_add_point(OnFace, Operator):
+class FACIAL_RETARGET_OT_add_point(OnFace, Operator):
     """Add a named feature point to the active face"""
 
     bl_idname = "facial_retarget.add_point"

@@ -6,7 +6,7 @@ from .errors import tells_user
 from .polls import OnTask
 
 
-class FACIALRETARGET_OT_create_examples(OnTask, Operator):
+class FACIAL_RETARGET_OT_create_examples(OnTask, Operator):
     """Give both faces the shape keys of the seven examples: the Basis is the neutral one, the others wait for you"""
 
     bl_idname = "facial_retarget.create_examples"

@@ -2,22 +2,22 @@
 
 from collections.abc import Callable
 from functools import wraps
-from typing import Any
 
-from bpy.types import Operator
+from bpy.types import Context, Operator
 
 from ..facial_retarget_addon.core.errors import RetargetError
 
-Method = Callable[..., set[str]]
+Method = Callable[[Operator, Context], set[str]]
 
 
 def tells_user(method: Method) -> Method:
     """An operator's method, with RetargetError reported and the operator cancelled. Anything else is a bug."""
 
+    # Blender counts the arguments of what it calls: no *args here.
     @wraps(method)
-    def guarded(self: Operator, *arguments: Any) -> set[str]:
+    def guarded(self: Operator, context: Context) -> set[str]:
         try:
-            return method(self, *arguments)
+            return method(self, context)
         except RetargetError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}

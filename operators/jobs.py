@@ -10,7 +10,7 @@ from .errors import tells_user
 from .polls import OnTask
 
 
-class FACIALRETARGET_OT_load_job(Operator, ImportHelper):
+class FACIAL_RETARGET_OT_load_job(Operator, ImportHelper):
     """Load a job file: its faces become objects, its settings the panel's"""
 
     bl_idname = "facial_retarget.load_job"
@@ -42,7 +42,7 @@ class FACIALRETARGET_OT_load_job(Operator, ImportHelper):
         return {"FINISHED"}
 
 
-class FACIALRETARGET_OT_save_job(OnTask, Operator, ExportHelper):
+class FACIAL_RETARGET_OT_save_job(OnTask, Operator, ExportHelper):
     """Save the task as a job file, with the faces, frames and points that it needs beside it"""
 
     bl_idname = "facial_retarget.save_job"

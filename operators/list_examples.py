@@ -6,7 +6,7 @@ from bpy.types import Context, Event, Operator
 from .polls import OnTask
 
 
-class FACIALRETARGET_OT_add_example(OnTask, Operator):
+class FACIAL_RETARGET_OT_add_example(OnTask, Operator):
     """Use a shape key that both faces have as an example"""
 
     bl_idname = "facial_retarget.add_example"
@@ -29,7 +29,7 @@ class FACIALRETARGET_OT_add_example(OnTask, Operator):
         return {"FINISHED"}
 
 
-class FACIALRETARGET_OT_remove_example(OnTask, Operator):
+class FACIAL_RETARGET_OT_remove_example(OnTask, Operator):
     """Take the chosen example off the list; its shape keys stay"""
 
     bl_idname = "facial_retarget.remove_example"

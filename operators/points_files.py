@@ -10,7 +10,7 @@ from .errors import tells_user
 from .polls import OnFace
 
 
-class FACIALRETARGET_OT_load_points(OnFace, Operator, ImportHelper):
+class FACIAL_RETARGET_OT_load_points(OnFace, Operator, ImportHelper):
     """Replace the feature points of the active face by those of a file"""
 
     bl_idname = "facial_retarget.load_points"
@@ -34,7 +34,7 @@ class FACIALRETARGET_OT_load_points(OnFace, Operator, ImportHelper):
         return {"FINISHED"}
 
 
-class FACIALRETARGET_OT_save_points(OnFace, Operator, ExportHelper):
+class FACIAL_RETARGET_OT_save_points(OnFace, Operator, ExportHelper):
     """Save the feature points of the active face to a file"""
 
     bl_idname = "facial_retarget.save_points"

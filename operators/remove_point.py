@@ -5,7 +5,7 @@ from bpy.types import Context, Operator
 from .polls import OnFace
 
 
-class FACIALRETARGET_OT_remove_point(OnFace, Operator):
+class FACIAL_RETARGET_OT_remove_point(OnFace, Operator):
     """Remove the chosen feature point from the active face"""
 
     bl_idname = "facial_retarget.remove_point"

@@ -9,7 +9,7 @@ TICK = 0.02
 """Seconds between two steps of the modal operator."""
 
 
-class FACIALRETARGET_OT_retarget(OnTask, Operator):
+class FACIAL_RETARGET_OT_retarget(OnTask, Operator):
     """Retarget the source's performance and bake it on the target as one shape key per frame; Esc stops"""
 
     bl_idname = "facial_retarget.retarget"

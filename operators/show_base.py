@@ -6,7 +6,7 @@ from .errors import tells_user
 from .polls import OnTask
 
 
-class FACIALRETARGET_OT_show_base(OnTask, Operator):
+class FACIAL_RETARGET_OT_show_base(OnTask, Operator):
     """Build the base mesh from the feature points and show it on both faces, as wire objects"""
 
     bl_idname = "facial_retarget.show_base"

@@ -5,13 +5,12 @@ import bpy
 from . import examples, faces, feature_points, job, method
 
 CLASSES = (
-    faces.FACIALRETARGET_PT_faces,
-    feature_points.FACIALRETARGET_UL_points,
-    feature_points.FACIALRETARGET_PT_points,
-    examples.FACIALRETARGET_PT_examples,
-    method.FACIALRETARGET_PT_retarget,
-    method.FACIALRETARGET_PT_settings,
-    job.FACIALRETARGET_PT_job,
+    faces.FACIAL_RETARGET_PT_faces,
+    feature_points.FACIAL_RETARGET_PT_points,
+    examples.FACIAL_RETARGET_PT_examples,
+    method.FACIAL_RETARGET_PT_retarget,
+    method.FACIAL_RETARGET_PT_settings,
+    job.FACIAL_RETARGET_PT_job,
 )
 
 

@@ -5,7 +5,7 @@ from bpy.types import Context, Panel
 from .tab import RetargetTab
 
 
-class FACIALRETARGET_PT_examples(RetargetTab, Panel):
+class FACIAL_RETARGET_PT_examples(RetargetTab, Panel):
     """Shape keys that both faces have and that show the same expression."""
 
     bl_label = "Examples"

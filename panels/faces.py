@@ -5,7 +5,7 @@ from bpy.types import Context, Panel
 from .tab import RetargetTab
 
 
-class FACIALRETARGET_PT_faces(RetargetTab, Panel):
+class FACIAL_RETARGET_PT_faces(RetargetTab, Panel):
     """Source, target and the performance's frames."""
 
     bl_label = "Faces"

@@ -1,21 +1,11 @@
 """The feature points of the active face, and the base mesh made from them."""
 
-from bpy.types import AnyType, Context, Panel, UILayout, UIList
+from bpy.types import Context, Panel
 
 from .tab import RetargetTab
 
 
-class FACIALRETARGET_UL_points(UIList):
-    """The feature points of a face."""
-
-    def draw_item(
-        self, context: Context, layout: UILayout, data: AnyType, item: AnyType, icon: int, *position: object
-    ) -> None:
-        """One point: its name, to be changed by a double click."""
-        layout.prop(item, "name", text="", emboss=False)
-
-
-class FACIALRETARGET_PT_points(RetargetTab, Panel):
+class FACIAL_RETARGET_PT_points(RetargetTab, Panel):
     """Feature points of the active object."""
 
     bl_label = "Feature Points"
@@ -30,7 +20,7 @@ class FACIALRETARGET_PT_points(RetargetTab, Panel):
             face = thing.facial_retarget
             layout.label(text=f"{thing.name}: {len(face.points)} points")
             row = layout.row()
-            row.template_list("FACIALRETARGET_UL_points", "", face, "points", face, "active_point", rows=4)
+            row.template_list("UI_UL_list", "facial_retarget_points", face, "points", face, "active_point", rows=4)
             buttons = row.column(align=True)
             buttons.operator("facial_retarget.add_point", text="", icon="ADD")
             buttons.operator("facial_retarget.remove_point", text="", icon="REMOVE")

@@ -5,7 +5,7 @@ from bpy.types import Context, Panel
 from .tab import RetargetTab
 
 
-class FACIALRETARGET_PT_job(RetargetTab, Panel):
+class FACIAL_RETARGET_PT_job(RetargetTab, Panel):
     """Save the task as a job file, or load one."""
 
     bl_label = "Job"

@@ -5,7 +5,7 @@ from bpy.types import Context, Panel
 from .tab import RetargetTab
 
 
-class FACIALRETARGET_PT_retarget(RetargetTab, Panel):
+class FACIAL_RETARGET_PT_retarget(RetargetTab, Panel):
     """Retarget and bake."""
 
     bl_label = "Retarget"
@@ -21,11 +21,11 @@ class FACIALRETARGET_PT_retarget(RetargetTab, Panel):
         layout.operator("facial_retarget.retarget", icon="PLAY")
 
 
-class FACIALRETARGET_PT_settings(RetargetTab, Panel):
+class FACIAL_RETARGET_PT_settings(RetargetTab, Panel):
     """The settings of the chosen method."""
 
     bl_label = "Settings"
-    bl_parent_id = "FACIALRETARGET_PT_retarget"
+    bl_parent_id = "FACIAL_RETARGET_PT_retarget"
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: Context) -> None:

@@ -1,0 +1,102 @@
+"""What the scenarios share: the installed extension, and small things to work on."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from importlib import import_module
+from types import ModuleType
+
+import bpy
+import numpy as np
+
+NAME = "bl_ext.user_default.facial_retarget"
+
+
+# addon_utils exists once bpy is imported, so that it is imported where it is used.
+def enable() -> None:
+    """Enable the installed extension."""
+    import addon_utils
+
+    assert addon_utils.enable(NAME) is not None, "the extension cannot be enabled"
+
+
+def disable() -> None:
+    """Disable it."""
+    import addon_utils
+
+    addon_utils.disable(NAME)
+
+
+def policy_warnings() -> dict[str, list[str]]:
+    """Blender's own complaints about extensions: absolute imports, changes of sys.path."""
+    import addon_utils
+
+    addon_utils._extensions_warnings_get._is_first = True
+    return addon_utils._extensions_warnings_get()
+
+
+def part(name: str) -> ModuleType:
+    """A module of the installed extension, such as "bridge.bake"."""
+    return import_module(f"{NAME}.facial_retarget_addon.{name}")
+
+
+def empty_scene() -> None:
+    """A new file without any object."""
+    bpy.ops.wm.read_homefile(use_empty=True)
+    enable()
+
+
+def grid(name: str, side: int = 6) -> bpy.types.Object:
+    """A curved surface of side x side vertices."""
+    x, y = np.meshgrid(np.linspace(-1, 1, side), np.linspace(-1, 1, side))
+    vertices = np.stack([x, y, 1 - 0.4 * (x**2 + y**2)], axis=2).reshape(-1, 3)
+    row = np.arange(side - 1)
+    first = (row[:, None] * side + row).ravel()
+    corners = first[:, None] + [0, 1, side + 1, side]
+    return part("bridge.meshes").new_object(name, vertices, np.full(len(corners), 4), corners.ravel())
+
+
+def wave(thing: bpy.types.Object, count: int) -> np.ndarray:
+    """(count, V, 3) float32 frames that move every vertex of an object, the first one too."""
+    basis = part("bridge.meshes").read_positions(thing.data)
+    time = np.arange(1, count + 1, dtype=np.float32)[:, None]
+    frames = np.repeat(basis[None], count, axis=0)
+    frames[..., 2] += 0.1 * np.sin(time + 3 * basis[:, 0])
+    return frames
+
+
+def shown(thing: bpy.types.Object) -> np.ndarray:
+    """(V, 3) positions of an object as it looks at the scene's frame, in its own coordinates."""
+    mesh = thing.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+    flat = np.empty(3 * len(mesh.vertices), np.float32)
+    mesh.vertices.foreach_get("co", flat)
+    return flat.reshape(-1, 3)
+
+
+@contextmanager
+def refused(*words: str) -> Iterator[None]:
+    """The block must raise an error whose text holds all the words, and leave the scene as it was."""
+    before = snapshot()
+    try:
+        yield
+    except Exception as error:
+        assert type(error).__name__ in ("RetargetError", "RuntimeError"), f"not for the user: {error!r}"
+        missing = [word for word in words if word not in str(error)]
+        assert not missing, f"{missing} not in: {error}"
+        assert "Traceback" not in str(error), str(error)
+        assert snapshot() == before, f"the scene has changed: {before} -> {snapshot()}"
+    else:
+        raise AssertionError(f"accepted, expected an error with {words}")
+
+
+def snapshot() -> dict[str, object]:
+    """What an operator that fails or is stopped must not change."""
+    scene = bpy.context.scene
+    return {
+        "frame": (scene.frame_current, scene.frame_subframe),
+        "objects": sorted(thing.name for thing in bpy.data.objects),
+        "meshes": sorted(mesh.name for mesh in bpy.data.meshes),
+        "actions": sorted(action.name for action in bpy.data.actions),
+        "keys": {key.name: [(block.name, block.value) for block in key.key_blocks] for key in bpy.data.shape_keys},
+        "points": {thing.name: len(thing.facial_retarget.points) for thing in bpy.data.objects},
+        "examples": [example.name for example in scene.facial_retarget.examples],
+    }

@@ -1,0 +1,14 @@
+"""Each scenario is a script that runs inside Blender and fails by raising."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+SCENARIOS = Path(__file__).parent / "scenarios"
+SHARED = ("install.py", "stage.py")
+
+
+@pytest.mark.parametrize("scenario", sorted(path.stem for path in SCENARIOS.glob("*.py") if path.name not in SHARED))
+def test_scenario(scenario: str, blender: Callable[..., str], tmp_path: Path) -> None:
+    blender(SCENARIOS / f"{scenario}.py", tmp_path)
