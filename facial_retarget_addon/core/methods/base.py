@@ -47,6 +47,11 @@ class Retargeter(Protocol):
         """Figures of the fit, as plain data: piercing errors per level, coverage, scale, example fit, warnings."""
         ...
 
+    @property
+    def counterpart(self) -> IntArray:
+        """(Vt,) source vertex nearest to each target vertex's counterpart, -1 where there is none."""
+        ...
+
     def frames(self, source: FloatArray) -> FloatArray:
         """Target positions of source frames: (F, Vs, 3) -> (F, Vt, 3) float32, each in its own object's units."""
         ...

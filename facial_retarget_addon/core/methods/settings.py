@@ -36,8 +36,11 @@ class HierarchicalSettings:
         "How motion turns: by one similarity of the two heads, or by local frames on the base mesh",
         choices=("global", "local"),
     )
-    extra_points: int = _setting(
-        50, "Base points that are added between the given ones, matched by the correspondence", low=0, high=400
+    base_points: int = _setting(
+        105,
+        "Base points wanted: what the given ones lack is added between them, matched by the correspondence",
+        low=4,
+        high=500,
     )
     base_gain: float = _setting(1.0, "Strength of the coarse motion, carried by the base mesh", low=0.0, high=4.0)
     level_gains: tuple[float, ...] = _setting(

@@ -1,0 +1,92 @@
+"""More base points between the given ones, matched through the correspondence."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .arrays import BoolArray, FloatArray, IntArray
+from .base_insertion import insert_points
+from .base_mesh import BaseMesh
+from .closest_point import SurfaceFinder
+from .correspondence import Correspondence, places_on_source
+from .mesh import TriMesh
+from .points import FeaturePoints
+
+_BORDER = 0.08
+"""A place counts as inside the base where its weights at a border edge's far corner are above this."""
+_AGREEMENT = 0.3
+"""It must face the way the base faces: the dot product of their normals is above this."""
+
+
+def refine_base(
+    base: BaseMesh,
+    source: TriMesh,
+    source_points: FeaturePoints,
+    target: TriMesh,
+    target_points: FeaturePoints,
+    correspondence: Correspondence,
+    wanted: int,
+) -> tuple[BaseMesh, FeaturePoints, FeaturePoints]:
+    """A base of `wanted` points, and its points on both faces in the base's order.
+
+    The new points are the target's vertices inside the base that lie farthest from all points, one
+    after the other; the correspondence says where they are on the source. Boundary loops stay as
+    they are.
+    """
+    on_source, on_target = source_points.subset(base.names), target_points.subset(base.names)
+    spread = _farthest_vertices(base, target, on_target, correspondence, wanted - len(base.names))
+    if not len(spread):
+        return base, on_source, on_target
+    names = tuple(f"between_{k + 1}" for k in range(len(spread)))
+    corners = np.repeat(spread[:, None], 3, axis=1)
+    weights = np.tile([1.0, 0.0, 0.0], (len(spread), 1))
+    placed = places_on_source(correspondence, source, target, corners, weights)
+    on_source = on_source.joined(FeaturePoints(names, *placed))
+    on_target = on_target.joined(FeaturePoints(names, corners, weights))
+    positions = [on_source.positions(source.vertices), on_target.positions(target.vertices)]
+    rows = np.arange(len(base.names), len(on_source))
+    faces, outside = insert_points(base.faces, rows, positions)
+    kept = np.setdiff1d(np.arange(len(on_source)), outside)
+    chosen = [on_source.names[k] for k in kept]
+    refined = BaseMesh(tuple(chosen), np.searchsorted(kept, faces), base.loops, base.warnings)
+    return refined, on_source.subset(chosen), on_target.subset(chosen)
+
+
+def _farthest_vertices(
+    base: BaseMesh, target: TriMesh, points: FeaturePoints, correspondence: Correspondence, count: int
+) -> IntArray:
+    """Up to `count` target vertices inside the base, each the farthest from all points before it."""
+    inside = np.flatnonzero(inside_base(base, target, points) & (correspondence.confidence > 0.5))
+    if count <= 0 or not len(inside):
+        return np.empty(0, np.int64)
+    places = target.vertices[inside]
+    gap = np.full(len(inside), np.inf)
+    for position in points.positions(target.vertices):
+        np.minimum(gap, _squared(places - position), out=gap)
+    chosen: list[int] = []
+    for _ in range(min(count, len(inside))):
+        best = int(np.argmax(gap))
+        chosen.append(int(inside[best]))
+        np.minimum(gap, _squared(places - places[best]), out=gap)
+    return np.array(chosen, np.int64)
+
+
+def _squared(vectors: FloatArray) -> FloatArray:
+    squared: FloatArray = np.einsum("ij,ij->i", vectors, vectors)
+    return squared
+
+
+def inside_base(base: BaseMesh, mesh: TriMesh, points: FeaturePoints) -> BoolArray:
+    """(V,) true for vertices of a face that lie well inside its base mesh.
+
+    points : the base's points on this face, in the base's order.
+    """
+    flat = TriMesh(points.positions(mesh.vertices), base.faces)
+    near = SurfaceFinder(flat).closest(mesh.vertices, mesh.vertex_normals, _AGREEMENT)
+    found = near.face >= 0
+    on_border = (flat.edge_face_count == 1)[flat.face_edges[near.face]]
+    # Edge k of a face lies opposite corner k + 2.
+    depth = near.weights[:, [2, 0, 1]]
+    longest = flat.edge_lengths.mean()
+    inside: BoolArray = found & (near.distance < longest) & ~(on_border & (depth < _BORDER)).any(axis=1)
+    return inside

@@ -1,0 +1,141 @@
+"""Ways to take a source's motion to a target: linear, pierced, and one riding on another."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+import scipy.sparse as sp
+
+from .arrays import FloatArray
+from .binding import Binding, apply_matrix
+from .example_residuals import spread_matrix
+from .normal_mesh import NormalMesh
+from .rigid import Similarity
+from .source_reader import SourceReader
+
+Motion = Callable[[FloatArray], FloatArray]
+"""Source frames (F, Vs, 3) float32 to target displacements (F, V, 3) float32, in target units."""
+
+_TURN_REACH = 0.35
+"""Neighbourhood of a local frame, in eye separations."""
+
+
+class LinearMotion:
+    """A matrix on the source's displacements, then a similarity's scale and rotation.
+
+    Parameters
+    ----------
+    matrix : (V, Vs) source displacements to the target's places, in source units.
+    rest : (Vs, 3) the source's neutral.
+    similarity : source to target.
+    turns : (V, 3, 3) rotations in place of the similarity's own; None for none.
+    """
+
+    def __init__(
+        self, matrix: sp.csr_matrix, rest: FloatArray, similarity: Similarity, turns: FloatArray | None = None
+    ) -> None:
+        self._matrix = (similarity.scale * matrix).astype(np.float32)
+        self._rest = rest.astype(np.float32)
+        self._turns = np.asarray(similarity.rotation if turns is None else turns, np.float32)
+
+    def __call__(self, frames: FloatArray) -> FloatArray:
+        """Displacements (F, V, 3) for source frames (F, Vs, 3)."""
+        return turn(apply_matrix(self._matrix, frames - self._rest), self._turns)
+
+
+class PiercedMotion:
+    """Motion of the finest level between normal meshes pierced frame by frame.
+
+    Parameters
+    ----------
+    reader : reads the source's frames.
+    neutral : the source's normal mesh.
+    gains : strengths of the base and of each level.
+    similarity, turns : as for LinearMotion.
+    """
+
+    def __init__(
+        self,
+        reader: SourceReader,
+        neutral: NormalMesh,
+        gains: Sequence[float],
+        similarity: Similarity,
+        turns: FloatArray | None = None,
+    ) -> None:
+        self._reader, self._neutral, self._gains = reader, neutral, gains
+        self._scale = similarity.scale
+        self._turns = np.asarray(similarity.rotation if turns is None else turns, np.float32)
+        # Read like any frame, so that no motion in is no motion out, bit for bit.
+        self._rest = reader.levels(reader.rest)
+
+    def __call__(self, frames: FloatArray) -> FloatArray:
+        """Displacements (F, N, 3) for source frames (F, Vs, 3)."""
+        rest = self._rest
+        moved = np.empty((len(frames), len(rest[-1]), 3), np.float32)
+        for k, frame in enumerate(frames):
+            levels = [now - before for now, before in zip(self._reader.levels(frame), rest, strict=True)]
+            scaled = self._gains[0] * levels[0]
+            for step, coarse, fine, gain in zip(
+                self._neutral.steps, levels[:-1], levels[1:], self._gains[1:], strict=True
+            ):
+                scaled = step.matrix @ scaled + gain * (fine - step.matrix @ coarse)
+            moved[k] = self._scale * scaled
+        return turn(moved, self._turns)
+
+
+class BlendedMotion:
+    """The target's vertices riding on a fine mesh that moves, and beyond its border on another motion.
+
+    Parameters
+    ----------
+    fine : motion of the fine mesh's vertices.
+    binding : the target's vertices on it.
+    beyond : motion of the target's vertices away from it.
+    """
+
+    def __init__(self, fine: Motion, binding: Binding, beyond: Motion) -> None:
+        self._fine, self._binding, self._beyond = fine, binding, beyond
+
+    def __call__(self, frames: FloatArray) -> FloatArray:
+        """Displacements (F, V, 3) for source frames (F, Vs, 3)."""
+        inside = self._binding.inside.astype(np.float32)[:, None]
+        blended: FloatArray = inside * self._binding.displacements(self._fine(frames))
+        blended += (1 - inside) * self._beyond(frames)
+        return blended
+
+
+def turn(displacements: FloatArray, turns: FloatArray) -> FloatArray:
+    """Displacements (F, V, 3) turned by one rotation (3, 3) or by one for each vertex (V, 3, 3)."""
+    if turns.ndim == 2:
+        turned: FloatArray = displacements @ turns.T
+    else:
+        turned = np.einsum("vij,fvj->fvi", turns, displacements)
+    return turned
+
+
+def local_turns(source_base: FloatArray, target_base: FloatArray, separation: float, places: FloatArray) -> FloatArray:
+    """(V, 3, 3) rotations from source to target, each of its place's own neighbourhood on the base.
+
+    Parameters
+    ----------
+    source_base, target_base : (B, 3) neutral base vertices of both faces.
+    separation : the target's eye separation.
+    places : (V, 3) on the target.
+    """
+    squared = np.square(target_base[:, None] - target_base).sum(axis=2)
+    near = np.exp(-squared / (2 * (_TURN_REACH * separation) ** 2))
+    near /= near.sum(axis=1, keepdims=True)
+    products = np.einsum("ij,jk,jl->ikl", near, target_base, source_base, optimize=True)
+    products -= (near @ target_base)[:, :, None] * (near @ source_base)[:, None, :]
+    rotations = _nearest_rotations(products)
+    spread = spread_matrix(places, target_base, _TURN_REACH * separation)
+    return _nearest_rotations((spread @ rotations.reshape(-1, 9)).reshape(-1, 3, 3))
+
+
+def _nearest_rotations(matrices: FloatArray) -> FloatArray:
+    """Proper rotations (V, 3, 3) closest to matrices (V, 3, 3)."""
+    u, _, vt = np.linalg.svd(matrices)
+    u[:, :, 2] *= np.linalg.det(u @ vt)[:, None]
+    rotations: FloatArray = u @ vt
+    return rotations

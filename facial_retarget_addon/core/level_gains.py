@@ -1,0 +1,65 @@
+"""Motion in levels: what the base mesh carries, what each level adds, and what is finer still."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import scipy.sparse as sp
+
+from .arrays import FloatArray
+from .subdivision import Level
+
+
+def scale_levels(
+    carry: sp.csr_matrix,
+    fine: sp.csr_matrix,
+    ride: sp.csr_matrix,
+    inside: FloatArray,
+    steps: Sequence[Level],
+    gains: Sequence[float],
+    detail: float,
+) -> sp.csr_matrix:
+    """A carry matrix whose levels of motion have their own strengths.
+
+    On the normal mesh, level j adds what its vertices move beyond the subdivision of level j - 1
+    (offsets as vectors, Na and Jung 2004, equation 7, without the restriction to the normal). The
+    detail is what the artist's vertices move beyond the finest level. All of it is linear in the
+    source's motion, so it stays one matrix.
+
+    Parameters
+    ----------
+    carry : (V, S) source displacements to displacements of the target's vertices.
+    fine : (N, S) to displacements of the finest level's vertices.
+    ride : (V, N) finest level to the target's vertices.
+    inside : (V,) 1 on the base, 0 away from it, where all motion counts as base motion.
+    steps : subdivision steps; vertex i of a level is vertex i of all finer ones.
+    gains : strengths of the base and of each level, len(steps) + 1 of them.
+    detail : strength of what is finer than the last level.
+
+    Returns
+    -------
+    (V, S). With all strengths 1 this is `carry` itself.
+    """
+    if detail == 1.0 and all(gain == 1.0 for gain in gains):
+        return carry
+    size = steps[0].matrix.shape[1]
+    scaled = gains[0] * fine[:size]
+    for step, gain in zip(steps, gains[1:], strict=True):
+        band = fine[: step.vertex_count] - step.matrix @ fine[:size]
+        scaled = step.matrix @ scaled + gain * band
+        size = step.vertex_count
+    on_base = ride @ scaled + detail * (carry - ride @ fine)
+    return (sp.diags(inside) @ on_base + sp.diags(gains[0] * (1 - inside)) @ carry).tocsr()
+
+
+def band_energies(motion: FloatArray, steps: Sequence[Level]) -> FloatArray:
+    """Root mean square length that the base and each level add to fine displacements (F, N, 3): (L + 1,)."""
+    size = steps[0].matrix.shape[1]
+    energies = [float(np.sqrt(np.square(motion[:, :size]).sum(axis=2).mean()))]
+    for step in steps:
+        coarse = motion[:, :size].transpose(1, 0, 2).reshape(size, -1)
+        band = motion[:, : step.vertex_count].transpose(1, 0, 2).reshape(step.vertex_count, -1) - step.matrix @ coarse
+        energies.append(float(np.sqrt(np.square(band).sum() / (len(motion) * step.vertex_count))))
+        size = step.vertex_count
+    return np.array(energies)

@@ -1,0 +1,72 @@
+"""A whole retargeting job on arrays: fit, frames in blocks, report."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from .arrays import FloatArray, Progress, no_progress
+from .errors import RetargetError
+from .methods.base import Problem, fit
+from .methods.settings import Settings
+from .quality import Quality
+
+BLOCK = 16
+"""Frames that go through at once."""
+
+
+@dataclass(frozen=True, eq=False)
+class Result:
+    """frames (F, Vt, 3) float32 in the target's units, and the report as plain data."""
+
+    frames: FloatArray
+    report: dict[str, Any]
+
+
+def retarget(
+    method: str, problem: Problem, settings: Settings, frames: FloatArray, progress: Progress = no_progress
+) -> Result:
+    """Fit a method to two faces and take all frames through it.
+
+    Parameters
+    ----------
+    method : a name of `METHODS`.
+    frames : (F, Vs, 3) source positions, in the source's units.
+    progress : called with the share done and what is being done; raises Cancelled to stop.
+
+    Raises
+    ------
+    RetargetError : for frames of another vertex count than the source, or whatever the method refuses.
+    """
+    source, target = problem.source.mesh, problem.target.mesh
+    if frames.ndim != 3 or frames.shape[1:] != source.vertices.shape:
+        raise RetargetError(f"source frames have shape {frames.shape}, expected (F, {len(source.vertices)}, 3)")
+    start = perf_counter()
+    retargeter = fit(method, problem, settings, lambda share, what: progress(0.4 * share, what))
+    fitted = perf_counter()
+    result = np.empty((len(frames), len(target.vertices), 3), np.float32)
+    quality = Quality(source, target, retargeter.counterpart)
+    measuring = 0.0
+    for first in range(0, len(frames), BLOCK):
+        progress(0.4 + 0.6 * first / len(frames), f"frame {first + 1} of {len(frames)}")
+        block = np.asarray(frames[first : first + BLOCK], np.float32)
+        result[first : first + BLOCK] = retargeter.frames(block)
+        measure = perf_counter()
+        quality.add(block, result[first : first + BLOCK])
+        measuring += perf_counter() - measure
+    progress(1.0, "done")
+    report = {
+        "method": method,
+        "settings": asdict(settings),
+        **retargeter.report,
+        "quality": quality.summary(),
+        "seconds": {
+            "fit": fitted - start,
+            "frames": perf_counter() - fitted - measuring,
+            "quality": measuring,
+        },
+    }
+    return Result(result, report)
