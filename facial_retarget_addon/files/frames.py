@@ -13,7 +13,7 @@ from ..core.arrays import FloatArray, IntArray
 from ..core.errors import RetargetError
 from .npz import read_arrays, write_arrays
 from .obj import read_obj_vertices, write_obj_faces, write_obj_vertices
-from .whole import written_whole
+from .whole import check_place, written_whole
 
 BLOCK = 16
 """Frames that are converted at once while writing."""
@@ -66,9 +66,10 @@ def write_frames(frames: FloatArray, path: Path, corners: tuple[IntArray, IntArr
         writer(aside.place(path, replaces=".obj"), frames, corners)
 
 
-def check_frames_path(path: Path) -> None:
-    """RetargetError if frames cannot be written under this name."""
+def check_frames_place(path: Path) -> None:
+    """RetargetError if `write_frames` would refuse the path."""
     _format(path)
+    check_place(path, replaces=".obj")
 
 
 def _read_npz(path: Path) -> FloatArray:

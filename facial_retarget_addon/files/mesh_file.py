@@ -11,7 +11,6 @@ from ..core.arrays import FloatArray, IntArray
 from ..core.errors import RetargetError
 from ..core.mesh import TriMesh
 
-
 FARTHEST = 1e18
 """No position of a mesh is farther from the origin: its square still fits into float32."""
 

@@ -12,7 +12,7 @@ from ..core.arrays import FloatArray, IntArray
 from ..core.errors import RetargetError
 from .mesh_file import MeshFile
 from .npz import read_arrays, write_arrays
-from .obj import read_obj, write_obj
+from .obj import read_obj, read_obj_vertices, write_obj
 from .ply import read_ply, write_ply
 from .whole import written_whole
 
@@ -26,6 +26,11 @@ def read_mesh(path: Path) -> MeshFile:
         vertices that are not finite or face indices out of range.
     """
     return _READERS[_suffix(path)](path)
+
+
+def read_positions(path: Path) -> FloatArray:
+    """The vertices (V, 3) of a mesh file alone, such as an example's; RetargetError as in `read_mesh`."""
+    return read_obj_vertices(path) if _suffix(path) == ".obj" else read_mesh(path).mesh.vertices
 
 
 def write_mesh(mesh_file: MeshFile, path: Path) -> None:

@@ -32,11 +32,8 @@ class Aside:
         RetargetError : if the folder around `path` is missing, or `path` is a folder that holds anything
             but such files: replacing it would lose them.
         """
-        if not path.parent.is_dir():
-            raise RetargetError(f"{path} cannot be written: there is no folder {path.parent}")
-        if path.is_dir():
-            _check_replaceable(path, replaces)
-        aside = path.parent / f".{path.stem}.{secrets.token_hex(4)}.partial{path.suffix}"
+        check_place(path, replaces)
+        aside = path.parent / f".{path.stem}-{secrets.token_hex(4)}-partial{path.suffix}"
         self._pairs.append((aside, path))
         return aside
 
@@ -85,13 +82,26 @@ def write_whole(path: Path, content: bytes) -> None:
         file.write(content)
 
 
-def _check_replaceable(folder: Path, suffix: str) -> None:
-    foreign = sorted(entry.name for entry in folder.iterdir() if not suffix or entry.suffix.lower() != suffix)
-    if not suffix:
+def check_place(path: Path, replaces: str = "") -> None:
+    """RetargetError if `Aside.place` would refuse."""
+    try:
+        if not path.parent.is_dir():
+            raise RetargetError(f"{path} cannot be written: there is no folder {path.parent}")
+        if not os.access(path.parent, os.W_OK):
+            raise RetargetError(f"{path} cannot be written: the folder {path.parent} may not be changed")
+        if path.is_dir():
+            _check_replaceable(path, replaces)
+    except OSError as error:
+        raise RetargetError(f"{path} cannot be written: {error.strerror or error}") from error
+
+
+def _check_replaceable(folder: Path, replaces: str) -> None:
+    if not replaces:
         raise RetargetError(f"{folder} cannot be written: it is a folder, expected a file")
+    foreign = sorted(entry.name for entry in folder.iterdir() if entry.suffix.lower() != replaces)
     if foreign:
         raise RetargetError(
-            f"folder {folder} holds {foreign[0]!r}; expected a new folder, or one that holds {suffix} files only, "
+            f"folder {folder} holds {foreign[0]!r}; expected a new folder, or one that holds {replaces} files only, "
             "since it is replaced"
         )
 

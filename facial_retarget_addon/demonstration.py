@@ -1,0 +1,63 @@
+"""The built-in faces as files, with a job for each target."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from .core.arrays import Progress, no_progress
+from .core.errors import RetargetError
+from .core.methods.settings import HierarchicalSettings
+from .demo import DemoFace, actor, performance, targets
+from .files.frames import write_frames
+from .files.job import ExampleFiles, FaceFiles, Job, OutputFiles, write_job
+from .files.mesh_file import MeshFile
+from .files.meshes import write_mesh
+from .files.points import write_points
+
+
+def write_demonstration(folder: Path, progress: Progress = no_progress) -> list[Path]:
+    """Write the actor, its performance, the targets and their examples; returns the job files, one for each target.
+
+    Raises
+    ------
+    RetargetError : if the system refuses to write.
+    """
+    folder = folder.absolute()
+    progress(0.0, "Making the built-in faces")
+    source = actor()
+    acting = FaceFiles(*_write_face(source, folder), folder / source.name / "performance.npz")
+    write_frames(performance(source), folder / source.name / "performance.npz")
+    jobs = []
+    for target in targets():
+        files = FaceFiles(*_write_face(target, folder))
+        examples = tuple(
+            ExampleFiles(name, _example(folder, source, name), _example(folder, target, name))
+            for name in source.face.examples
+            if name in target.face.examples
+        )
+        place = folder / target.name
+        output = OutputFiles(place / "frames.npz", place / "report.json", place / "report.html")
+        path = folder / f"{target.name}.toml"
+        write_job(Job("hierarchical", acting, files, examples, HierarchicalSettings(), output, None, path), path)
+        jobs.append(path)
+    progress(1.0, "Done")
+    return jobs
+
+
+def _write_face(face: DemoFace, folder: Path) -> tuple[Path, Path]:
+    """Write a face's neutral, points and examples; returns the paths of the first two."""
+    place = folder / face.name
+    try:
+        place.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise RetargetError(f"the folder {place} cannot be made: {error.strerror or error}") from error
+    neutral = MeshFile(face.face.mesh, face.counts, face.corners, face.uvs[face.corners])
+    write_mesh(neutral, place / "neutral.obj")
+    write_points(face.face.points, place / "points.json")
+    for name, positions in face.face.examples.items():
+        write_mesh(MeshFile.from_mesh(face.face.mesh.with_vertices(positions)), _example(folder, face, name))
+    return place / "neutral.obj", place / "points.json"
+
+
+def _example(folder: Path, face: DemoFace, name: str) -> Path:
+    return folder / face.name / f"{name}.npz"

@@ -1,0 +1,76 @@
+"""The pictures of a report: the same moments of source and target, side by side."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..core.arrays import FloatArray, IntArray
+from ..core.methods.base import Face, Problem
+from .pictures import png_bytes, shade
+
+PICTURE_SIZE = (360, 360)
+MARGIN = 0.3
+"""Around the feature points, as a share of their extent: shows the face and not the shoulders."""
+_BLOCK = 16
+
+
+@dataclass(frozen=True)
+class Moment:
+    """One frame, by its number from 0, as PNG files of source and target."""
+
+    frame: int
+    source: bytes
+    target: bytes
+
+
+def moments(problem: Problem, source_frames: FloatArray, target_frames: FloatArray, count: int = 6) -> list[Moment]:
+    """Pictures of the liveliest frames.
+
+    Parameters
+    ----------
+    source_frames, target_frames : (F, Vs, 3) and (F, Vt, 3).
+    count : how many, at most.
+    """
+    source, target = _Portrait(problem.source), _Portrait(problem.target)
+    return [
+        Moment(int(frame), source.picture(source_frames[frame]), target.picture(target_frames[frame]))
+        for frame in liveliest(problem.source.mesh.vertices, source_frames, count)
+    ]
+
+
+def liveliest(neutral: FloatArray, frames: FloatArray, count: int) -> IntArray:
+    """The frame with the most motion from each of `count` equal spans of time."""
+    motion = np.concatenate(
+        [np.abs(frames[start : start + _BLOCK] - neutral).mean(axis=(1, 2)) for start in range(0, len(frames), _BLOCK)]
+    )
+    spans = np.array_split(np.arange(len(frames)), min(count, len(frames)))
+    return np.array([span[np.argmax(motion[span])] for span in spans], np.int64)
+
+
+class _Portrait:
+    """Takes pictures of one face from in front, all framed alike."""
+
+    def __init__(self, face: Face) -> None:
+        mesh = face.mesh
+        self._faces = mesh.faces
+        self._axes = _upright(face)
+        places = face.points.positions(mesh.vertices) if len(face.points) else mesh.vertices[np.unique(mesh.faces)]
+        seen = places @ self._axes.T
+        margin = MARGIN * np.ptp(seen, axis=0).max() * np.array([1.0, 1.0, 0.0])
+        self._frame = np.stack([seen.min(axis=0) - margin, seen.max(axis=0) + margin])
+
+    def picture(self, vertices: FloatArray) -> bytes:
+        return png_bytes(shade(vertices @ self._axes.T, self._faces, PICTURE_SIZE, frame=self._frame))
+
+
+def _upright(face: Face) -> FloatArray:
+    """(3, 3) rows right, up, forward of a face: where its points look, Z up where that is along Y, else Y up."""
+    mesh = face.mesh
+    normals = face.points.positions(mesh.vertex_normals) if len(face.points) else np.array([[0.0, 0.0, 1.0]])
+    mean = normals.mean(axis=0)
+    axis = int(np.argmax(np.abs(mean)))
+    forward = np.eye(3)[axis] * np.sign(mean[axis] or 1.0)
+    up = np.eye(3)[2 if axis == 1 else 1]
+    return np.stack([np.cross(up, forward), up, forward])

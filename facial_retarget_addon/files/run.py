@@ -1,0 +1,171 @@
+"""A whole job: read everything, check it, retarget, write everything. For the command line and for scripts."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple, ParamSpec, TypeVar
+
+import numpy as np
+
+from ..core.arrays import FloatArray, Progress, no_progress
+from ..core.checks import faults, warnings
+from ..core.errors import RetargetError
+from ..core.methods.base import Face, Problem
+from ..core.points import FeaturePoints
+from ..core.retarget import retarget
+from .base_mesh import read_base_mesh
+from .frames import check_frames_place, read_frames, write_frames
+from .job import FaceFiles, Job, read_job
+from .mesh_file import MeshFile
+from .meshes import read_mesh, read_positions
+from .points import read_points
+from .report import report_json, report_page
+from .whole import check_place, written_whole
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+
+@dataclass(frozen=True, eq=False)
+class Inputs:
+    """What a job's files hold: the problem, the source's frames (F, Vs, 3), the target as it stands in its file."""
+
+    problem: Problem
+    frames: FloatArray | None
+    target: MeshFile
+
+
+class Findings(NamedTuple):
+    """What `check_job` found: what breaks the job, and what it survives."""
+
+    faults: list[str]
+    warnings: list[str]
+
+
+def run_job(path: Path, progress: Progress = no_progress) -> dict[str, Any]:
+    """Do a job: nothing is written before all of it is done, and everything appears together.
+
+    Parameters
+    ----------
+    path : the job file.
+    progress : told how far the job is; may raise Cancelled, which leaves every file as it was.
+
+    Returns
+    -------
+    The report, as it was written.
+
+    Raises
+    ------
+    RetargetError : for anything that is wrong with the job, its files or the problem; names all of it.
+    """
+    start = time.perf_counter()
+    progress(0.0, "Reading")
+    job = read_job(path)
+    inputs, wrong = _read_and_check(job)
+    if wrong or inputs is None or inputs.frames is None:
+        raise RetargetError("; ".join(wrong))
+    noticed = warnings(inputs.problem, inputs.frames, job.settings)
+    seconds = {"read and check": time.perf_counter() - start}
+    result = retarget(job.method, inputs.problem, job.settings, inputs.frames, _part(progress, 0.1, 0.9))
+    report = {"job": job.path.name, **result.report}
+    report["warnings"] = [*noticed, *report.get("warnings", [])]
+    report["seconds"] = seconds | report.get("seconds", {})
+    progress(0.9, "Writing")
+    with written_whole() as aside:
+        corners = inputs.target.counts, inputs.target.corners
+        write_frames(result.frames, aside.place(job.output.frames, replaces=".obj"), corners)
+        if job.output.report is not None:
+            aside.place(job.output.report).write_bytes(report_json(report))
+        if job.output.page is not None:
+            progress(0.93, "Taking pictures")
+            page = report_page(report, inputs.problem, inputs.frames, result.frames)
+            aside.place(job.output.page).write_bytes(page)
+    progress(1.0, "Done")
+    return report
+
+
+def check_job(path: Path) -> Findings:
+    """Everything that is wrong with a job, its files and the problem that they state; nothing is written."""
+    try:
+        job = read_job(path)
+    except RetargetError as error:
+        return Findings([str(error)], [])
+    inputs, wrong = _read_and_check(job)
+    if wrong or inputs is None:
+        return Findings(wrong, [])
+    return Findings([], warnings(inputs.problem, inputs.frames, job.settings))
+
+
+def _read_and_check(job: Job) -> tuple[Inputs | None, list[str]]:
+    """What the files hold, and all that is wrong; None where so much is unreadable that there is no problem."""
+    reading = _Reading()
+    inputs = reading.inputs(job)
+    reading.attempt(check_frames_place, job.output.frames)
+    for output in (job.output.report, job.output.page):
+        if output is not None:
+            reading.attempt(check_place, output)
+    if inputs is not None:
+        reading.wrong += faults(inputs.problem, inputs.frames, job.settings)
+    return inputs, reading.wrong
+
+
+class _Reading:
+    """Reads one thing after the other and collects what is wrong."""
+
+    def __init__(self) -> None:
+        self.wrong: list[str] = []
+
+    def attempt(self, read: Callable[P, T], *args: P.args, **kwargs: P.kwargs) -> T | None:
+        """What `read` returns, or None if it found something wrong."""
+        try:
+            return read(*args, **kwargs)
+        except RetargetError as error:
+            self.wrong.append(str(error))
+            return None
+
+    def inputs(self, job: Job) -> Inputs | None:
+        """The problem, without examples and frames that are unreadable; None if its faces or base are."""
+        source, target = self.attempt(read_mesh, job.source.neutral), self.attempt(read_mesh, job.target.neutral)
+        source_points, target_points = self.points(job.source, source), self.points(job.target, target)
+        base = None if job.base is None else self.attempt(read_base_mesh, job.base)
+        examples: dict[str, tuple[FloatArray, FloatArray]] = {}
+        for example in job.examples:
+            one, other = self.attempt(read_positions, example.source), self.attempt(read_positions, example.target)
+            if one is not None and other is not None:
+                examples[example.name] = one, other
+        frames = None
+        if job.source.frames is None:
+            self.wrong.append(f"{job.path} has no [source] frames, expected the frames to retarget")
+        elif source is not None:
+            frames = self.attempt(read_frames, job.source.frames, len(source.mesh.vertices))
+        if source is None or target is None or source_points is None or target_points is None:
+            return None
+        if base is None and job.base is not None:
+            return None
+        return Inputs(
+            Problem(
+                Face(source.mesh, source_points, {name: pair[0] for name, pair in examples.items()}),
+                Face(target.mesh, target_points, {name: pair[1] for name, pair in examples.items()}),
+                base,
+            ),
+            frames,
+            target,
+        )
+
+    def points(self, files: FaceFiles, face: MeshFile | None) -> FeaturePoints | None:
+        """The points of a face, none of them where the job names no file; None if they cannot be read."""
+        if files.points is None:
+            return FeaturePoints((), np.empty((0, 3), np.int64), np.empty((0, 3)))
+        return None if face is None else self.attempt(read_points, files.points, face.mesh)
+
+
+def _part(progress: Progress, first: float, last: float) -> Progress:
+    """Progress of a part of the work that lies between two shares of the whole."""
+
+    def part(share: float, what: str) -> None:
+        progress(first + share * (last - first), what)
+
+    return part
