@@ -120,4 +120,5 @@ def _strength(pairs: ExamplePairs, base: FloatArray, places: FloatArray, areas: 
 def leave_one_out(pairs: ExamplePairs, m: int, *args: FloatArray | float) -> FloatArray:
     """(V, 3) what the other examples make of example m; `args` as for `fit_example_residuals` after the pairs."""
     others = fit_example_residuals(pairs.without(m), *args)  # type: ignore[arg-type]
-    return others.steer(pairs.carried[m : m + 1].astype(np.float32), pairs.base[m : m + 1])[0]
+    predicted: FloatArray = others.steer(pairs.carried[m : m + 1].astype(np.float32), pairs.base[m : m + 1])[0]
+    return predicted

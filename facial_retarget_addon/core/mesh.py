@@ -91,7 +91,7 @@ class TriMesh:
         return cls(vertices, np.concatenate(faces)[order], owner[order])
 
     def checked(self, what: str) -> TriMesh:
-        """This mesh, if every method can work on it.
+        """The mesh itself, if every method can work on it.
 
         Parameters
         ----------
@@ -327,4 +327,5 @@ def _clip_ears(vertices: FloatArray, ring: IntArray) -> IntArray:
         triangles.append([left[best - 1], left[best], left[(best + 1) % len(left)]])
         del left[best]
     triangles.append(left)
-    return ring[np.array(triangles)]
+    clipped: IntArray = ring[np.array(triangles)]
+    return clipped

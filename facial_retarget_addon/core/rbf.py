@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .arrays import FloatArray
+from .arrays import FloatArray, IntArray
 from .errors import RetargetError
 
 
@@ -128,7 +128,7 @@ def _fit_one(
     maps.rbf_weights[i, keep] = solved
 
 
-def merge_centres(centres: FloatArray, tolerance: float) -> tuple[FloatArray, FloatArray]:
+def merge_centres(centres: FloatArray, tolerance: float) -> tuple[IntArray, IntArray]:
     """Centres (M, 3) that stand for all, and the cluster (M,) of each.
 
     A centre joins the first kept one within `tolerance`; kept ones are rows of `centres`.

@@ -26,10 +26,11 @@ from ..example_residuals import ExamplePairs, ExampleResiduals, fit_example_resi
 from ..level_gains import scale_levels
 from ..mesh import TriMesh
 from ..normal_mesh import NormalLevel, NormalMesh, build_normal_mesh
-from ..paper_motion import PaperMotion, SourceReader
+from ..paper_motion import PaperMotion
 from ..points import FeaturePoints, common_names, place_matrix
 from ..rbf import MultiquadricMaps, fit_multiquadrics
 from ..rigid import Similarity, fit_similarity
+from ..source_reader import SourceReader
 from ..subdivision import Level, hierarchy
 from .base import Problem
 from .settings import HierarchicalSettings
