@@ -15,6 +15,7 @@ import scipy.sparse as sp
 from scipy.spatial import Delaunay, cKDTree
 
 from ..core.arrays import FloatArray, IntArray
+from .shapes import along
 
 
 @dataclass(frozen=True)
@@ -76,7 +77,7 @@ MOUTH = Lens(0.0, -1.075, 0.385, 0.022, 0.022)
 OPENINGS = (LEFT_EYE, RIGHT_EYE, MOUTH)
 
 _LOW = np.array([-1.72, -2.55])
-_HIGH = np.array([1.72, 1.12])
+_HIGH = np.array([1.72, 1.50])
 _ON_RIM = 1e-6
 _MARGINS = (0.135, 0.135, 0.20)
 """How far the ring zone reaches around each opening."""
@@ -148,8 +149,8 @@ def ringed_layout(columns: int, rows: int, rings: int) -> Layout:
     columns, rows : quads of the grid across and along the whole chart.
     rings : quads between an opening's rim and the grid.
     """
-    x = np.linspace(_LOW[0], _HIGH[0], columns + 1)
-    y = np.linspace(_LOW[1], _HIGH[1], rows + 1)
+    x = _lines(columns, 0, (-1.15, 1.15))
+    y = _lines(rows, 1, (-1.40, 0.95))
     places = [_rounded(np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2))]
     index = np.arange((rows + 1) * (columns + 1)).reshape(rows + 1, columns + 1)
     keep = np.ones((rows, columns), bool)
@@ -205,6 +206,14 @@ def scattered_layout(spacing: float, rng: np.random.Generator) -> Layout:
     outside = np.min([lens.distance(middle) for lens in OPENINGS], axis=0) > 0
     sliver = on_border[triangles].all(axis=1) & (np.abs(area) < 0.02 * spacing**2)
     return _compact(places, triangles[outside & ~sliver])
+
+
+def _lines(count: int, axis: int, dense: tuple[float, float]) -> FloatArray:
+    """(count + 1,) grid lines across the chart, twice as close where the face acts."""
+    fine = np.linspace(_LOW[axis], _HIGH[axis], 2001)
+    density = 0.5 + 0.5 * along(fine, *dense, 0.25)
+    share = np.concatenate([[0.0], np.cumsum(0.5 * (density[1:] + density[:-1]))])
+    return np.interp(np.linspace(0.0, share[-1], count + 1), share, fine)
 
 
 def _nearest(lines: FloatArray, value: float) -> int:

@@ -56,14 +56,14 @@ class LinearMuscle:
 
 
 _PAIRED: dict[str, tuple[LinearMuscle, ...]] = {
-    "frontalis_inner": (LinearMuscle((0.16, 1.05), (0.20, 0.27), 0.45, 0.28, 0.13),),
-    "frontalis_outer": (LinearMuscle((0.62, 1.05), (0.62, 0.30), 0.45, 0.26, 0.13),),
+    "frontalis_inner": (LinearMuscle((0.12, 1.50), (0.18, 0.27), 0.36, 0.28, 0.13),),
+    "frontalis_outer": (LinearMuscle((0.72, 1.50), (0.68, 0.30), 0.36, 0.26, 0.12),),
     "corrugator": (LinearMuscle((-0.02, 0.06), (0.26, 0.28), 0.75, 0.30, 0.085),),
     "levator": (LinearMuscle((0.22, -0.05), (0.25, -0.85), 0.42, 0.30, 0.13, 1),),
-    "zygomatic": (LinearMuscle((1.00, -0.45), (0.385, -1.07), 0.55, 0.34, 0.20),),
+    "zygomatic": (LinearMuscle((1.00, -0.45), (0.385, -1.07), 0.60, 0.46, 0.20),),
     "risorius": (LinearMuscle((1.05, -1.00), (0.385, -1.07), 0.50, 0.30, 0.13),),
-    "depressor_anguli": (LinearMuscle((0.46, -1.72), (0.385, -1.07), 0.60, 0.34, 0.15),),
-    "depressor_labii": (LinearMuscle((0.25, -1.75), (0.18, -1.12), 0.50, 0.10, 0.13, -1),),
+    "depressor_anguli": (LinearMuscle((0.46, -1.72), (0.385, -1.07), 0.60, 0.34, 0.115),),
+    "depressor_labii": (LinearMuscle((0.22, -1.95), (0.12, -1.12), 0.42, 0.10, 0.12, -1),),
     "squint": (LinearMuscle((0.56, 0.30), (0.66, -0.38), 0.75, 0.30, 0.075),),
 }
 LIDS = ("blink", "widen")
@@ -73,7 +73,7 @@ SIDES = {"l": 1.0, "r": -1.0}
 ACTIONS = (*(f"{name}_{side}" for name in (*_PAIRED, *LIDS) for side in SIDES), *SINGLE)
 """Names of the contractions, in the order of `contractions`."""
 
-JAW_ANGLE = np.radians(24.0)
+JAW_ANGLE = np.radians(21.0)
 
 
 def contractions(*poses: Mapping[str, float]) -> FloatArray:
@@ -181,11 +181,16 @@ def _pull(action: str, places: FloatArray) -> tuple[FloatArray, FloatArray]:
 def _jaw_weight(places: FloatArray) -> FloatArray:
     """How much of the jaw's turn a place takes part in, (N,) from 0 to 1."""
     x, y = places.T
+    across = np.minimum(np.abs(x - MOUTH.x) / MOUTH.half_width, 1.0)
     beyond = np.maximum(np.abs(x) - MOUTH.half_width, 0.0)
-    lower = 0.5 * (1.0 - MOUTH.side(places))
-    cheek = step(y, -0.62, -1.45)
-    near = np.exp(-((beyond / 0.26) ** 2)) * np.exp(-((np.maximum(MOUTH.distance(places) - 0.05, 0.0) / 0.45) ** 2))
-    weight = cheek + near * (lower - cheek)
+    # The lips open to an oval: near the corners the lower one stays behind and the upper one follows.
+    corner = 0.42
+    lip = np.where(y > MOUTH.y, corner * across**4, 1.0 - (1.0 - corner) * across**3)
+    cheek = step(y, -0.60, -1.50)
+    near = np.exp(-((beyond / 0.30) ** 2) - (np.maximum(MOUTH.distance(places), 0.0) / 0.17) ** 2)
+    side = 0.5 * (1.0 - MOUTH.side(places))
+    far = cheek + 0.8 * np.exp(-((beyond / 0.45) ** 2)) * (side - cheek)
+    weight = far + near * (lip - far)
     return weight * (1.0 - step(y, -1.85, -2.5)) * (1.0 - step(np.abs(x), 1.15, 1.72))
 
 
@@ -263,10 +268,11 @@ def _wrinkles(places: FloatArray) -> FloatArray:
     fields = []
     for side in SIDES.values():
         here = side * x
-        window = step(here, -0.25, 0.15) * (1.0 - step(here, 0.70, 0.98)) * along(y, 0.40, 0.86, 0.08)
-        fields.append(0.0085 * window * _folds(y - 0.05 * np.cos(4.2 * (here - 0.05)), 0.088))
-    window = bell(x, 0.13) * along(y, 0.14, 0.42, 0.09)
-    fields.append(0.007 * window * _folds(x, 0.075))
+        window = step(here, -0.2, 0.2) * (1.0 - step(here, 0.66, 0.98)) * along(y, 0.42, 0.88, 0.09)
+        window = window * (1.0 - 0.4 * np.sin(4.0 * here + 9.0 * y) ** 2) * (1.0 - 0.5 * step(y, 0.5, 0.95))
+        fields.append(0.0085 * window * _folds(y + 0.010 * np.cos(2 * np.pi * here / 1.3) + 0.05 * here**2, 0.088))
+    window = bell(x, 0.085) * along(y, 0.16, 0.40, 0.08)
+    fields.append(0.010 * window * _folds(x, 0.088))
     for side in SIDES.values():
         here = side * x
         dx, dy = here - 0.70, y + 0.01

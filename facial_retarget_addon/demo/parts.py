@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..core.arrays import FloatArray, IntArray
+from .chart import MOUTH
 from .sculpt import Sculpture
 
 _WHITE = (0.82, 0.81, 0.79)
@@ -40,18 +41,18 @@ def _grid(rows: int, columns: int) -> tuple[FloatArray, FloatArray, IntArray]:
 
 
 def _eyeball(sculpture: Sculpture, side: float) -> Part:
-    """The front of an eyeball, pupil in the middle; the grid of a disc, so that no pole is needed."""
-    v, u, quads = _grid(24, 24)
-    x, y = 2 * u - 1, 2 * v - 1
-    disc = np.stack([x * np.sqrt(1 - 0.5 * y**2), y * np.sqrt(1 - 0.5 * x**2)], axis=1)
-    radius = np.hypot(*disc.T)
-    angle = np.radians(100.0) * radius
-    around = disc / np.maximum(radius, 1e-9)[:, None]
-    unit = np.concatenate([np.sin(angle)[:, None] * around, np.cos(angle)[:, None]], axis=1)
-    colours = np.where((angle < 0.46)[:, None], _IRIS, _WHITE)
-    colours[angle < 0.20] = _PUPIL
-    places = sculpture.eye_centre(side) + sculpture.eye_radius * unit
-    return Part(places, quads, 0.05 + 0.04 * disc + np.array([0.02, 0.0]) * side, colours)
+    """The front of an eyeball: squares of a grid drawn into rings around the pupil, so that it has no pole."""
+    v, u, quads = _grid(32, 32)
+    square = np.stack([2 * u - 1, 2 * v - 1], axis=1)
+    ring = np.abs(square).max(axis=1)
+    round_ = square / np.maximum(np.hypot(*square.T), 1e-9)[:, None]
+    angle = np.radians(95.0) * ring**1.4
+    unit = np.concatenate([np.sin(angle)[:, None] * round_, np.cos(angle)[:, None]], axis=1)
+    colours = np.where((angle < 0.385)[:, None], _IRIS, _WHITE)
+    colours[angle < 0.165] = _PUPIL
+    positions = sculpture.eye_centre(side) + sculpture.eye_radius * unit
+    uvs = np.array([0.06 + 0.03 * side, 0.05]) + 0.025 * ring[:, None] * round_
+    return Part(positions, quads, uvs, colours)
 
 
 def _teeth(sculpture: Sculpture) -> Part:
@@ -60,7 +61,7 @@ def _teeth(sculpture: Sculpture) -> Part:
     x = 0.56 * (u - 0.5)
     gaps = 1.0 - np.abs(np.sin(10 * np.pi * (u - 0.5))) ** 0.5
     places = np.stack([x, -1.155 + 0.20 * v + 0.02 * gaps * (v < 0.1)], axis=1)
-    depth = 0.075 * sculpture.shape.muzzle - 0.125 - 1.2 * x**2 - 0.05 * v - 0.012 * gaps
+    depth = 0.075 * sculpture.shape.muzzle - 0.160 - 1.2 * x**2 - 0.05 * v - 0.012 * gaps
     return _behind(sculpture, places, depth, 1.0, quads, _TOOTH)
 
 
@@ -68,7 +69,8 @@ def _wall(sculpture: Sculpture) -> Part:
     """The dark at the back of the mouth."""
     v, u, quads = _grid(12, 16)
     places = np.stack([1.1 * (u - 0.5), -1.66 + 0.90 * v], axis=1)
-    return _behind(sculpture, places, np.full(len(places), -0.30), 0.85, quads, _DARK)
+    depth = -0.42 + 0.38 * (2 * u - 1) ** 4 * np.exp(-(((places[:, 1] - MOUTH.y) / 0.22) ** 2))
+    return _behind(sculpture, places, depth, 0.85, quads, _DARK)
 
 
 def _behind(

@@ -18,8 +18,10 @@ from .shapes import along, bell, blob, pad, roll, smooth_max, sphere, step
 # chart y: profile Y and Z without nose and lips, half width, depth of the side, rise of the side
 _PROFILE = np.array(
     [
-        [1.25, 1.20, 0.28, 0.86, 0.86, 0.00],
-        [1.05, 1.04, 0.41, 0.95, 0.90, 0.00],
+        [1.80, 1.54, -0.36, 0.44, 0.40, 0.00],
+        [1.55, 1.42, -0.10, 0.62, 0.60, 0.00],
+        [1.30, 1.245, 0.175, 0.80, 0.78, 0.00],
+        [1.05, 1.04, 0.385, 0.94, 0.89, 0.00],
         [0.83, 0.83, 0.52, 1.02, 0.94, 0.00],
         [0.57, 0.57, 0.59, 1.07, 0.97, 0.00],
         [0.32, 0.32, 0.61, 1.09, 0.97, 0.00],
@@ -41,10 +43,10 @@ _SPLINE = CubicSpline(_PROFILE[::-1, 0], _PROFILE[::-1, 1:])
 _AROUND = 1.10
 """Chart units of x per radian around the head."""
 
-_EYE_RADIUS = 0.195
+_EYE_RADIUS = 0.255
 _LID = 0.028
 """Thickness of a lid."""
-_EYE_DEPTH = 0.008
+_EYE_DEPTH = 0.012
 """How far the front of an eyeball lies behind the base sheet."""
 
 
@@ -101,7 +103,7 @@ class Sculpture:
         for side, lens in ((1.0, LEFT_EYE), (-1.0, RIGHT_EYE)):
             # The lid lies on the eyeball; where the two meet there is a crease.
             ball = sphere(base, outward, self.eye_centre(side) / self.scale, _EYE_RADIUS * self.shape.eye + _LID)
-            relief = np.where(np.isfinite(ball), smooth_max(relief, np.nan_to_num(ball, neginf=-9.0), 0.022), relief)
+            relief = np.where(np.isfinite(ball), smooth_max(relief, np.nan_to_num(ball, neginf=-9.0), 0.040), relief)
             relief -= 0.045 * roll(lens.distance(places), 0.024)
         positions = base + relief[:, None] * outward
         positions[:, 1] += _closed_lips(places)
@@ -151,7 +153,7 @@ def _closed_lips(places: FloatArray) -> FloatArray:
     across = np.clip(1.0 - ((places[:, 0] - MOUTH.x) / MOUTH.half_width) ** 2, 0.0, 1.0)
     reach = 0.16
     down, up = (step(d, reach, 0.0) * across for d in (above, below))
-    return np.where(places[:, 1] > MOUTH.y, -0.85 * MOUTH.upper * down, 0.85 * MOUTH.lower * up)
+    return np.where(places[:, 1] > MOUTH.y, -0.985 * MOUTH.upper * down, 0.985 * MOUTH.lower * up)
 
 
 def _relief(places: FloatArray, shape: Shape) -> FloatArray:
@@ -169,15 +171,15 @@ def _relief(places: FloatArray, shape: Shape) -> FloatArray:
     h -= shape.hollow * 0.028 * blob(ax, y, 0.80, -0.98, 0.22, 0.30)
     h += 0.050 * blob(ax, y, 1.12, -1.30, 0.25, 0.25)
     # eye sockets
-    h -= shape.socket * 0.165 * blob(ax, y, 0.50, 0.01, 0.225, 0.145)
+    h -= shape.socket * 0.160 * blob(ax, y, 0.51, 0.02, 0.235, 0.150)
     h -= shape.socket * 0.070 * blob(ax, y, 0.25, 0.04, 0.085, 0.12)
     h -= 0.020 * blob(ax, y, 0.45, -0.20, 0.18, 0.05, -0.25)
     # mouth and chin
     h += shape.muzzle * 0.075 * blob(x, y, 0.0, -1.03, 0.36, 0.26)
     h -= 0.050 * blob(x, y, 0.0, -1.315, 0.22, 0.055)
     h += shape.chin * 0.075 * blob(x, y, 0.0, -1.56, 0.19, 0.14)
-    h -= 0.022 * blob(ax, y, 0.45, -1.11, 0.08, 0.09)
-    h -= 0.016 * bell(ax - (0.36 + 0.42 * (-0.65 - y)), 0.055) * along(-y, 0.66, 1.00, 0.14)
+    h -= 0.018 * blob(ax, y, 0.47, -1.12, 0.10, 0.11)
+    h -= 0.012 * bell(ax - (0.38 + 0.42 * (-0.65 - y)), 0.085) * along(-y, 0.66, 1.00, 0.16)
     h += _nose(x, ax, y, shape)
     return np.asarray(h + _lips(places, x, ax, y, shape))
 
@@ -187,13 +189,13 @@ def _nose(x: FloatArray, ax: FloatArray, y: FloatArray, shape: Shape) -> FloatAr
     ridge = _NOSE_HEIGHT(np.clip(y, -0.80, 0.30))
     width = _NOSE_WIDTH(np.clip(y, -0.80, 0.30))
     bridge = ridge * np.exp(-((x / width) ** 2))
-    tip = 0.345 * np.exp(-(((x / 0.165) ** 2 + ((y + 0.53) / 0.135) ** 2) ** 1.25))
-    wing = 0.175 * np.exp(-((((ax - 0.19) / 0.115) ** 2 + ((y + 0.595) / 0.105) ** 2) ** 1.4))
-    septum = 0.16 * np.exp(-((x / 0.06) ** 2 + ((y + 0.64) / 0.10) ** 2))
-    nose = smooth_max(smooth_max(bridge, tip, 0.05), wing, 0.05)
-    nose = smooth_max(nose, septum, 0.02)
-    nostril = 0.10 * blob(ax, y, 0.118, -0.672, 0.042, 0.030, 0.5)
-    crease = 0.03 * blob(ax, y, 0.315, -0.56, 0.03, 0.09)
+    tip = 0.345 * np.exp(-(((x / 0.175) ** 2 + ((y + 0.525) / 0.145) ** 2) ** 1.2))
+    wing = 0.190 * np.exp(-((((ax - 0.185) / 0.120) ** 2 + ((y + 0.585) / 0.112) ** 2) ** 1.5))
+    septum = 0.15 * np.exp(-((x / 0.075) ** 2) - ((y + 0.63) / 0.10) ** 2)
+    nose = smooth_max(smooth_max(bridge, tip, 0.06), wing, 0.045)
+    nose = smooth_max(nose, septum, 0.03)
+    nostril = 0.075 * blob(ax, y, 0.118, -0.675, 0.048, 0.032, 0.35)
+    crease = 0.022 * blob(ax, y, 0.32, -0.55, 0.05, 0.09)
     return np.asarray(shape.nose * (nose - crease) - nostril)
 
 
@@ -219,4 +221,4 @@ def _lips(places: FloatArray, x: FloatArray, ax: FloatArray, y: FloatArray, shap
     h += 0.018 * bell(x, 0.16) * blob(x, y, 0.0, MOUTH.y + 0.075, 1.0, 0.03)
     philtrum = along(-y, 0.74, 0.94, 0.05)
     h += philtrum * (0.010 * bell(ax - 0.080, 0.036) - 0.009 * bell(x, 0.04))
-    return h - 0.13 * roll(rim, 0.085)
+    return np.asarray(h - 0.13 * (0.2 + 0.8 * across) * roll(rim, 0.085))
