@@ -19,7 +19,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent
 SHIPPED = ("blender_manifest.toml", "LICENSE", "__init__.py", "facial_retarget_addon", "operators", "panels")
-LEFT_OUT = ("__pycache__", "cli", "cli.py", "__main__.py")
+LEFT_OUT = ("__pycache__", "cli.py", "demonstration.py", "terminal.py")
 
 PYTHONS = ("3.11", "3.13", "3.14")
 """Blender 4.5 to 5.0; 5.1 and 5.2; 5.2 as some distributions build it."""

@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
-from bpy.types import Context
+import bpy
+from bpy.types import Context, PropertyGroup
 
-from ..core.arrays import Progress
+from ..core.arrays import FloatArray, Progress
+from ..core.checks import faults, warnings
+from ..core.errors import RetargetError
+from ..core.methods.base import Problem
 from ..core.retarget import Result, retarget
+from ..files.report import report_json, report_page
+from ..files.whole import written_whole
 from .background import Steps, in_thread, part
 from .bake import write_frames
 from .performance import read_frames
-from .report import write_report
 from .settings import read_task_settings
 from .task import frame_range, read_problem
 
@@ -35,10 +41,24 @@ def retarget_steps(context: Context) -> Steps[dict[str, Any]]:
     source = yield from part(read_frames(context, task.source, frames), 0.0, READING)
 
     def compute(progress: Progress) -> Result:
-        return retarget(method, problem, settings, source, progress)
+        if wrong := faults(problem, source, settings):
+            raise RetargetError("; ".join(wrong))
+        result = retarget(method, problem, settings, source, progress)
+        noticed = warnings(problem, source, settings)
+        return Result(result.frames, {**result.report, "warnings": [*noticed, *result.report.get("warnings", [])]})
 
     result = yield from part(in_thread(compute), READING, COMPUTING)
     yield READING + COMPUTING, "Writing"
-    write_report(task, problem, source, result)
+    _write_report(task, problem, source, result)
     write_frames(task.target, result.frames, frames.start)
     return result.report
+
+
+def _write_report(task: PropertyGroup, problem: Problem, source: FloatArray, result: Result) -> None:
+    """Write the figures and the page where the panel says; together or not at all."""
+    with written_whole() as aside:
+        if task.report:
+            aside.place(Path(bpy.path.abspath(task.report))).write_bytes(report_json(result.report))
+        if task.page:
+            page = report_page(result.report, problem, source, result.frames)
+            aside.place(Path(bpy.path.abspath(task.page))).write_bytes(page)

@@ -18,10 +18,10 @@ PYTHONS = os.environ.get("FACIAL_RETARGET_BLENDER_PYTHONS", sys.executable).spli
 Run = Callable[..., str]
 
 
-def run_python(python: str, script: Path, *arguments: object, **variables: str) -> str:
-    """Run a script in its own process; its status and everything that it says count."""
+def run_python(python: str, *arguments: object, **variables: str) -> str:
+    """Run Python in its own process; its status and everything that it says count."""
     done = subprocess.run(
-        [python, str(script), *map(str, arguments)],
+        [python, *map(str, arguments)],
         env={**os.environ, **variables},
         text=True,
         stdout=subprocess.PIPE,
@@ -29,7 +29,7 @@ def run_python(python: str, script: Path, *arguments: object, **variables: str) 
         timeout=600,
         check=False,
     )
-    assert done.returncode == 0, f"{script.name} ended with status {done.returncode}:\n{done.stdout[-6000:]}"
+    assert done.returncode == 0, f"{arguments} ended with status {done.returncode}:\n{done.stdout[-6000:]}"
     return done.stdout
 
 
@@ -52,4 +52,14 @@ def blender(request: pytest.FixtureRequest, archive: Path, tmp_path_factory: pyt
         return run_python(request.param, script, *arguments, **alone)
 
     run(SCENARIOS / "install.py", archive)
+    return run
+
+
+@pytest.fixture(scope="session")
+def command_line() -> Run:
+    """Runs facial-retarget in a process of its own, in the environment of the tests."""
+
+    def run(*arguments: object) -> str:
+        return run_python(sys.executable, "-m", "facial_retarget_addon.cli", *arguments, PYTHONPATH=str(REPOSITORY))
+
     return run

@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 
 SCENARIOS = Path(__file__).parent / "scenarios"
-SHARED = ("install.py", "stage.py")
+NOT_ALONE = ("install", "stage", "retargeting")
 
 
-@pytest.mark.parametrize("scenario", sorted(path.stem for path in SCENARIOS.glob("*.py") if path.name not in SHARED))
+@pytest.mark.parametrize("scenario", sorted({path.stem for path in SCENARIOS.glob("*.py")} - set(NOT_ALONE)))
 def test_scenario(scenario: str, blender: Callable[..., str], tmp_path: Path) -> None:
     blender(SCENARIOS / f"{scenario}.py", tmp_path)
