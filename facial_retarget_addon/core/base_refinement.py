@@ -45,8 +45,8 @@ def refine_base(
     on_target = on_target.joined(FeaturePoints(names, corners, weights))
     positions = [on_source.positions(source.vertices), on_target.positions(target.vertices)]
     rows = np.arange(len(base.names), len(on_source))
-    faces, outside = insert_points(base.faces, rows, positions)
-    kept = np.setdiff1d(np.arange(len(on_source)), outside)
+    faces = insert_points(base.faces, rows, positions)
+    kept = np.unique(faces)
     chosen = [on_source.names[k] for k in kept]
     refined = BaseMesh(tuple(chosen), np.searchsorted(kept, faces), base.loops, base.warnings)
     return refined, on_source.subset(chosen), on_target.subset(chosen)
