@@ -281,7 +281,8 @@ def _frame_faults(source: Face, frames: FloatArray) -> list[str]:
         bad = np.argwhere(~np.isfinite(frames[start : start + _BLOCK]).all(axis=2))
         if len(bad):
             frame, vertex = bad[0].tolist()
-            return [f"source frame {start + frame} has a NaN or infinite vertex, the first is vertex {vertex}"]
+            which = f"source frame {start + frame + 1} of {len(frames)}"
+            return [f"{which} has a NaN or infinite vertex, the first is vertex {vertex}"]
     return []
 
 

@@ -11,7 +11,7 @@ from typing import Any
 from ..core.arrays import FloatArray
 from ..core.methods.base import Problem
 from .documents import json_bytes
-from .report_pictures import PICTURE_SIZE, Moment, moments
+from .report_pictures import PICTURE_SIZE, Moment, liveliest, moments
 
 _SECTIONS: tuple[tuple[str, tuple[str, ...], str], ...] = (
     (
@@ -31,7 +31,12 @@ _SECTIONS: tuple[tuple[str, tuple[str, ...], str], ...] = (
         "Error of each example relative to its motion: with it among the examples, and left out of them. One that is "
         "far worse when it is left out shows what no other example does.",
     ),
-    ("Fit", ("scale", "coverage", "source", "target", "still_components"), "How the two faces were matched."),
+    (
+        "Fit",
+        ("scale", "coverage", "matched", "base", "source", "target", "still_components"),
+        "Scale is target units for one source unit; coverage the share of the target's surface that lies on the base "
+        "mesh; matched the share that found its place on the source. Still components hold no feature point.",
+    ),
     ("Times", ("seconds",), "In seconds."),
     ("Settings", ("method", "settings"), ""),
 )
@@ -79,7 +84,15 @@ def report_page(
     report : plain data; what it holds beyond the known keys is shown too.
     source_frames, target_frames : (F, Vs, 3) and (F, Vt, 3).
     """
-    return render(report, moments(problem, source_frames, target_frames), len(target_frames))
+    chosen = {*liveliest(problem.source.mesh.vertices, source_frames), *worst_frame(report)}
+    return render(report, moments(problem, source_frames, target_frames, sorted(chosen)), len(target_frames))
+
+
+def worst_frame(report: Mapping[str, Any]) -> list[int]:
+    """The frame (from 0) with the most torn edges and flipped triangles; none where nothing is torn or flipped."""
+    quality = report.get("quality", {})
+    trouble = quality.get("torn_edges", 0) + quality.get("flipped_triangles", 0)
+    return [quality["worst_frame"] - 1] if trouble and quality.get("worst_frame") else []
 
 
 def render(report: Mapping[str, Any], pictures: Sequence[Moment], frame_count: int) -> bytes:
@@ -91,9 +104,9 @@ def render(report: Mapping[str, Any], pictures: Sequence[Moment], frame_count: i
         f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{_escape(title)}</title>',
         '<meta name="viewport" content="width=device-width, initial-scale=1">',
         f"<style>{_STYLE}</style></head><body><h1>{_escape(title)}</h1>",
-        f"<p>{frame_count} frames; pictures of the liveliest ones, source on the left, target on the right.</p>",
+        f"<p>{frame_count} frames. Pictures of the liveliest ones and the worst, source left, target right.</p>",
         _warnings(report.get("warnings", [])),
-        f'<div class="moments">{"".join(map(_figure, pictures))}</div>',
+        f'<div class="moments">{"".join(_figure(moment, worst_frame(report)) for moment in pictures)}</div>',
         *(_section(name, keys, note, report) for name, keys, note in (*_SECTIONS, ("More", rest, ""))),
         "</body></html>\n",
     ]
@@ -106,12 +119,13 @@ def _warnings(texts: Sequence[str]) -> str:
     return f'<ul class="warnings">{"".join(f"<li>{_escape(text)}</li>" for text in texts)}</ul>'
 
 
-def _figure(moment: Moment) -> str:
+def _figure(moment: Moment, worst: Sequence[int]) -> str:
     images = "".join(
         f'<img alt="{side}, frame {moment.frame + 1}" src="data:image/png;base64,{base64.b64encode(png).decode()}">'
         for side, png in (("source", moment.source), ("target", moment.target))
     )
-    return f"<figure><div>{images}</div><figcaption>Frame {moment.frame + 1}</figcaption></figure>"
+    remark = ", the worst: most torn edges and flipped triangles" if moment.frame in worst else ""
+    return f"<figure><div>{images}</div><figcaption>Frame {moment.frame + 1}{remark}</figcaption></figure>"
 
 
 def _section(name: str, keys: Sequence[str], note: str, report: Mapping[str, Any]) -> str:

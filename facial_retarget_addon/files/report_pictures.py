@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.arrays import FloatArray, IntArray
+from ..core.arrays import FloatArray
 from ..core.methods.base import Face, Problem
 from .pictures import png_bytes, shade
 
 PICTURE_SIZE = (360, 360)
-MARGIN = 0.3
+MARGIN = 0.12
 """Around the feature points, as a share of their extent: shows the face and not the shoulders."""
 _BLOCK = 16
 
@@ -25,28 +26,23 @@ class Moment:
     target: bytes
 
 
-def moments(problem: Problem, source_frames: FloatArray, target_frames: FloatArray, count: int = 6) -> list[Moment]:
-    """Pictures of the liveliest frames.
-
-    Parameters
-    ----------
-    source_frames, target_frames : (F, Vs, 3) and (F, Vt, 3).
-    count : how many, at most.
-    """
+def moments(
+    problem: Problem, source_frames: FloatArray, target_frames: FloatArray, chosen: Iterable[int]
+) -> list[Moment]:
+    """Pictures of the chosen frames (from 0) out of (F, Vs, 3) and (F, Vt, 3)."""
     source, target = _Portrait(problem.source), _Portrait(problem.target)
     return [
-        Moment(int(frame), source.picture(source_frames[frame]), target.picture(target_frames[frame]))
-        for frame in liveliest(problem.source.mesh.vertices, source_frames, count)
+        Moment(frame, source.picture(source_frames[frame]), target.picture(target_frames[frame])) for frame in chosen
     ]
 
 
-def liveliest(neutral: FloatArray, frames: FloatArray, count: int) -> IntArray:
+def liveliest(neutral: FloatArray, frames: FloatArray, count: int = 6) -> list[int]:
     """The frame with the most motion from each of `count` equal spans of time."""
     motion = np.concatenate(
         [np.abs(frames[start : start + _BLOCK] - neutral).mean(axis=(1, 2)) for start in range(0, len(frames), _BLOCK)]
     )
     spans = np.array_split(np.arange(len(frames)), min(count, len(frames)))
-    return np.array([span[np.argmax(motion[span])] for span in spans], np.int64)
+    return [int(span[np.argmax(motion[span])]) for span in spans]
 
 
 class _Portrait:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+
 from facial_retarget_addon.core.mesh import TriMesh
 from facial_retarget_addon.core.methods.settings import HierarchicalSettings
 from facial_retarget_addon.core.points import FeaturePoints

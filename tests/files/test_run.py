@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+
 from facial_retarget_addon.cli import main
 from facial_retarget_addon.files import run
 from facial_retarget_addon.files.frames import read_frames, write_frames
@@ -155,7 +156,7 @@ def test_a_frame_that_is_not_finite(job, listing, capsys):
     frames = np.array(read_frames(job.source.frames, 21 * 21))
     frames[1, 7, 2] = np.nan
     write_frames(frames, job.source.frames)
-    refused(job, listing, capsys, "frame 1", "vertex 7")
+    refused(job, listing, capsys, "frame 2 of 3", "vertex 7")
 
 
 def test_frames_of_another_vertex_count(job, listing, capsys):
