@@ -57,5 +57,6 @@ class MeshFile:
 
     @classmethod
     def from_mesh(cls, mesh: TriMesh) -> MeshFile:
-        """A triangle mesh without UVs."""
-        return cls(mesh, np.full(len(mesh.faces), 3, np.int64), mesh.faces.ravel())
+        """The triangles of a mesh, as polygons without UVs."""
+        counts = np.full(len(mesh.faces), 3, np.int64)
+        return cls(TriMesh(mesh.vertices, mesh.faces), counts, mesh.faces.ravel())

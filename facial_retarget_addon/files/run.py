@@ -51,7 +51,8 @@ def run_job(path: Path, progress: Progress = no_progress) -> dict[str, Any]:
     Parameters
     ----------
     path : the job file.
-    progress : told how far the job is; may raise Cancelled, which leaves every file as it was.
+    progress : told how far the job is, once its input is found sound; may raise Cancelled, which leaves every file
+        as it was.
 
     Returns
     -------
@@ -62,7 +63,6 @@ def run_job(path: Path, progress: Progress = no_progress) -> dict[str, Any]:
     RetargetError : for anything that is wrong with the job, its files or the problem; names all of it.
     """
     start = time.perf_counter()
-    progress(0.0, "Reading")
     job = read_job(path)
     inputs, wrong = _read_and_check(job)
     if wrong or inputs is None or inputs.frames is None:

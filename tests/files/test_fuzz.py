@@ -1,0 +1,173 @@
+"""Any bytes at all: a reader gives a sound object or a RetargetError of one line, and never anything else."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from facial_retarget_addon.core.errors import RetargetError
+from facial_retarget_addon.files.base_mesh import read_base_mesh, write_base_mesh
+from facial_retarget_addon.files.frames import read_frames, write_frames
+from facial_retarget_addon.files.job import read_job
+from facial_retarget_addon.files.meshes import read_mesh, write_mesh
+from facial_retarget_addon.files.points import read_points, write_points
+
+from .conftest import dome, dome_points
+
+SIDE = 6
+MESH = dome(SIDE)
+FRAMES = np.stack([MESH.mesh.vertices, 1.1 * MESH.mesh.vertices])
+JOB = b"""version = 1
+method = "hierarchical"
+base = "b.json"
+[source]
+neutral = "s.obj"
+frames = "f.npz"
+[target]
+neutral = "t.obj"
+points = "p.json"
+[[examples]]
+name = "joy"
+source = "a.obj"
+target = "b.obj"
+[settings]
+levels = 3
+level_gains = [1, 0.5]
+[output]
+frames = "out.npz"
+"""
+ASCII_PLY = b"""ply
+format ascii 1.0
+element vertex 3
+property float x
+property float y
+property float z
+element face 1
+property list uchar int vertex_indices
+end_header
+0 0 0
+1 0 0
+0 1 0
+3 0 1 2
+"""
+
+
+def read_any_mesh(path: Path) -> None:
+    found = read_mesh(path)
+    assert len(found.mesh.faces)
+    assert np.isfinite(found.mesh.vertices).all()
+    assert found.mesh.faces.min() >= 0
+    assert found.mesh.faces.max() < len(found.mesh.vertices)
+    assert found.counts.sum() == len(found.corners)
+    assert found.uvs is None or found.uvs.shape == (len(found.corners), 2)
+
+
+def read_any_frames(path: Path) -> None:
+    frames = read_frames(path, SIDE * SIDE)
+    assert frames.shape[1:] == (SIDE * SIDE, 3)
+    assert frames.dtype == np.float32
+    np.isfinite(frames).all()
+
+
+def read_any_points(path: Path) -> None:
+    points = read_points(path, MESH.mesh)
+    assert np.isfinite(points.positions(MESH.mesh.vertices)).all()
+
+
+READERS: dict[str, Callable[[Path], object]] = {
+    "mesh.obj": read_any_mesh,
+    "mesh.ply": read_any_mesh,
+    "ascii.ply": read_any_mesh,
+    "mesh.npz": read_any_mesh,
+    "small.npz": read_any_mesh,
+    "frames.npz": read_any_frames,
+    "frames.pc2": read_any_frames,
+    "frames.mdd": read_any_frames,
+    "points.json": read_any_points,
+    "base.json": read_base_mesh,
+    "job.toml": read_job,
+}
+WORDS = st.sampled_from(
+    [
+        b"nan",
+        b"-1",
+        b"0",
+        b"1e999",
+        b"9" * 30,
+        b"\0" * 4,
+        b"\xff" * 4,
+        b"null",
+        b"true",
+        b"[" * 50,
+        b"{",
+        b'"',
+        b"/",
+        b"\n",
+    ]
+)
+
+
+def sound(folder: Path, name: str) -> bytes:
+    """The bytes of a sound file."""
+    path = folder / name
+    match name:
+        case "job.toml":
+            return JOB
+        case "ascii.ply":
+            return ASCII_PLY
+        case "small.npz":
+            packed = io.BytesIO()
+            np.savez_compressed(packed, vertices=MESH.mesh.vertices, faces=MESH.mesh.faces)
+            return packed.getvalue()
+        case "points.json":
+            write_points(dome_points(SIDE), path)
+        case "base.json":
+            write_base_mesh((("a", "b", "c"),), path)
+        case _:
+            write_mesh(MESH, path) if name.startswith("mesh") else write_frames(FRAMES, path)
+    return path.read_bytes()
+
+
+def survives(name: str, path: Path, content: bytes) -> None:
+    path.write_bytes(content)
+    try:
+        READERS[name](path)
+    except RetargetError as error:
+        assert "\n" not in str(error)
+
+
+@pytest.mark.parametrize("name", READERS)
+@settings(max_examples=50, deadline=5000, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(content=st.binary(max_size=200))
+def test_any_bytes(tmp_path, name, content):
+    survives(name, tmp_path / name, content)
+
+
+@pytest.mark.parametrize("name", READERS)
+@settings(max_examples=150, deadline=5000, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(data=st.data())
+def test_a_sound_file_with_a_few_changes(tmp_path, name, data):
+    content = bytearray(sound(tmp_path, name))
+    for _ in range(data.draw(st.integers(1, 3))):
+        start = data.draw(st.integers(0, len(content)))
+        end = data.draw(st.integers(start, min(start + 6, len(content))))
+        content[start:end] = data.draw(st.binary(max_size=4) | WORDS)
+    survives(name, tmp_path / name, bytes(content))
+
+
+@pytest.mark.parametrize("name", READERS)
+def test_a_sound_file_is_sound(tmp_path, name):
+    (tmp_path / name).write_bytes(sound(tmp_path, name))
+    READERS[name](tmp_path / name)
+
+
+@pytest.mark.parametrize("name", ["points.json", "base.json", "job.toml"])
+def test_a_document_that_nests_too_deep(tmp_path, name):
+    survives(name, tmp_path / name, b"a = " * (name == "job.toml") + b"[" * 100_000)
+    survives(name, tmp_path / name, b'{"a":' * 100_000)

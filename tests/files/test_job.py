@@ -1,0 +1,168 @@
+"""Job files: round trips, and every fault named at once."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from facial_retarget_addon.core.errors import RetargetError
+from facial_retarget_addon.core.methods.settings import HierarchicalSettings
+from facial_retarget_addon.files.job import ExampleFiles, FaceFiles, Job, OutputFiles, read_job, write_job
+
+MINIMAL = """
+version = 1
+method = "hierarchical"
+[source]
+neutral = "source.obj"
+frames = "../takes/frames.npz"
+points = "source_points.json"
+[target]
+neutral = "target.obj"
+[output]
+frames = "out.npz"
+"""
+
+
+def written(tmp_path: Path, text: str) -> Path:
+    path = tmp_path / "job.toml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_paths_are_relative_to_the_job_file_and_what_is_not_said_has_its_default(tmp_path):
+    job = read_job(written(tmp_path, MINIMAL))
+    assert job.source == FaceFiles(
+        tmp_path / "source.obj", tmp_path / "source_points.json", tmp_path / "../takes/frames.npz"
+    )
+    assert job.target == FaceFiles(tmp_path / "target.obj")
+    assert job.output == OutputFiles(tmp_path / "out.npz")
+    assert job.settings == HierarchicalSettings()
+    assert (job.examples, job.base) == ((), None)
+
+
+def test_a_written_job_keeps_paths_relative_so_that_its_folder_can_move(job, tmp_path):
+    text = job.path.read_text()
+    assert str(tmp_path) not in text
+    assert 'neutral = "source.obj"' in text
+
+
+def test_a_path_outside_the_folder_is_kept(tmp_path):
+    job = read_job(written(tmp_path, MINIMAL.replace("source.obj", "/elsewhere/source.obj")))
+    write_job(job, job.path)
+    assert read_job(job.path) == job
+
+
+names = st.text(st.characters(exclude_categories=["Cs"]), max_size=8)
+files = st.text(st.characters(exclude_categories=["Cs"], exclude_characters="\0/\\:"), min_size=1, max_size=8).filter(
+    lambda name: name.strip(" .") == name and name.strip() != ""
+)
+
+
+@st.composite
+def jobs(draw: st.DrawFn, folder: Path) -> Job:
+    def path() -> Path:
+        return folder / draw(files)
+
+    level_gains = draw(st.lists(st.floats(0, 4), max_size=4))
+    return Job(
+        method="hierarchical",
+        source=FaceFiles(path(), draw(st.none() | st.just(path())), path()),
+        target=FaceFiles(path(), draw(st.none() | st.just(path()))),
+        examples=tuple(ExampleFiles(name, path(), path()) for name in draw(st.lists(names, unique=True, max_size=3))),
+        settings=HierarchicalSettings(
+            levels=draw(st.integers(1, 6)), base_gain=draw(st.floats(0, 4)), level_gains=tuple(level_gains)
+        ),
+        output=OutputFiles(
+            folder / "o" / draw(files),
+            draw(st.none() | st.just(folder / "r" / draw(files))),
+            folder / "p" / draw(files),
+        ),
+        base=draw(st.none() | st.just(path())),
+        path=folder / "job.toml",
+    )
+
+
+@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(data=st.data())
+def test_writing_and_reading_gives_the_same_job(tmp_path, data):
+    job = data.draw(jobs(tmp_path))
+    write_job(job, job.path)
+    assert read_job(job.path) == job
+
+
+def test_every_fault_is_named_at_once(tmp_path):
+    text = """
+    version = 2
+    method = "magic"
+    colour = "red"
+    [source]
+    neutral = 3
+    [target]
+    neutral = ""
+    frames = "f.npz"
+    [[examples]]
+    name = "joy"
+    source = "a.obj"
+    target = "b.obj"
+    [[examples]]
+    name = "joy"
+    target = "b.obj"
+    [output]
+    report = true
+    """
+    with pytest.raises(RetargetError) as error:
+        read_job(written(tmp_path, text))
+    for fault in (
+        "version = 2, expected 1",
+        "method = 'magic', expected one of hierarchical",
+        "colour is unknown",
+        "[source] neutral = 3, expected a text",
+        "[source] frames is missing",
+        "[target] neutral = '', expected a path",
+        "[target] frames is unknown",
+        "name 'joy' appears twice",
+        "[[examples]] 2 source is missing",
+        "[output] frames is missing",
+        "[output] report = True",
+    ):
+        assert fault in str(error.value)
+    assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("line", "expected"),
+    [
+        ("levels = 9", "a whole number from 1 to 6"),
+        ("levels = true", "a whole number from 1 to 6"),
+        ("levels = 2.5", "a whole number from 1 to 6"),
+        ("level = 2", "has no setting 'level'"),
+        ("base_gain = nan", "a number from 0.0 to 4.0"),
+        ('read = "guess"', "one of track, pierce"),
+        ("level_gains = [1, 9]", "a number from 0.0 to 4.0"),
+        ("level_gains = 1", "a list of numbers"),
+    ],
+)
+def test_a_setting_that_is_wrong(tmp_path, line, expected):
+    text = MINIMAL.replace("[output]", f"[settings]\n{line}\n[output]")
+    with pytest.raises(RetargetError, match=r"\[settings\]") as error:
+        read_job(written(tmp_path, text))
+    assert expected in str(error.value)
+
+
+def test_outputs_may_not_replace_inputs_or_each_other(tmp_path):
+    text = MINIMAL.replace('frames = "out.npz"', 'frames = "x/../source.obj"\nreport = "r"\npage = "r"')
+    with pytest.raises(RetargetError) as error:
+        read_job(written(tmp_path, text))
+    assert "[output] frames and [source] neutral are one file" in str(error.value)
+    assert "[output] page and [output] report are one file" in str(error.value)
+
+
+def test_numbers_survive_exactly(job):
+    changed = replace(job, settings=HierarchicalSettings(base_gain=math.pi, level_gains=(1e-300, 0.1, 4.0)))
+    write_job(changed, job.path)
+    assert read_job(job.path) == changed
