@@ -8,58 +8,76 @@ from scipy.interpolate import CubicSpline
 from .arrays import FloatArray, IntArray, unit_vectors
 from .closest_point import Nearest, SurfaceFinder
 from .mesh import TriMesh
+from .piercing import closest_agreeing
+from .surface_path import SurfacePaths, line_length, resample
 
-_SAMPLES = 64
+_SAMPLES = 48
 _SHARP = np.radians(75)
 """A loop that turns by more than this at a point has a corner there (corners of mouth and eyes)."""
 _ON_BORDER = 0.25
 """A loop lies on a boundary of the mesh if its points are nearer to it than this share of their spacing."""
-_AGREEMENT = 0.2
+_JUMP = 4.0
+"""A projected curve whose step is this many times longer than the mean step has left its side of the lip."""
+_DETOUR = 2.0
+"""A path along the surface does not replace a curve that is this many times shorter: a point lies in a pocket."""
 
 
-def boundary_places(
-    mesh: TriMesh, finder: SurfaceFinder, points: FloatArray, normals: FloatArray, parameters: FloatArray
-) -> Nearest:
-    """Places on a face along a closed loop of feature points.
+class BoundaryCurves:
+    """Places on one face along closed loops of feature points.
 
-    Where the mesh has a boundary loop through the points, the places lie on it; else on a spline through
-    the points, moved to the closest place of the surface whose normal agrees with the points' normals, so that
-    closed lips stay apart. Equal parameters on two faces are the same place of lip or lid.
-
-    Parameters
-    ----------
-    points : (n, 3) the loop's points in order, on the surface.
-    normals : (n, 3) unit surface normals there.
-    parameters : (m,) in [0, n): k is point k, the fraction is a share of the arc length to the next point.
+    Where the mesh has a boundary loop through the points, the places lie on it. Elsewhere they lie on a spline
+    through the points, moved to the closest place of the surface whose normal agrees with the points' normals, so
+    that closed lips stay apart; and where that would jump from one lip to the other, on the shortest path along the
+    surface. Equal parameters on two faces are the same place of lip or lid.
     """
-    border = _mesh_border(mesh, points)
-    curve = _spline(points) if border is None else border
-    at = _along(curve, parameters)
-    if border is not None:
-        return finder.closest(at)
-    share = np.mod(parameters, 1.0)[:, None]
-    first = np.floor(parameters).astype(np.int64) % len(points)
-    facing = unit_vectors((1 - share) * normals[first] + share * normals[(first + 1) % len(points)])
-    places = finder.closest(at, facing, _AGREEMENT)
-    lost = places.face < 0
-    if not lost.any():
-        return places
-    plain = finder.closest(at[lost])
-    for mine, other in zip(places, plain, strict=True):
-        mine[lost] = other
-    return places
 
+    def __init__(self, mesh: TriMesh, finder: SurfaceFinder) -> None:
+        self._mesh, self._finder = mesh, finder
+        self._paths = SurfacePaths(mesh)
 
-def _along(pieces: list[FloatArray], parameters: FloatArray) -> FloatArray:
-    """Points (m, 3) at parameters, by arc length within each piece (polyline (s, 3) from point k to k + 1)."""
-    at = np.empty((len(parameters), 3))
-    first = np.floor(parameters).astype(np.int64) % len(pieces)
-    for k, piece in enumerate(pieces):
-        mine = first == k
-        length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(piece, axis=0), axis=1))])
-        wanted = np.mod(parameters[mine], 1.0) * length[-1]
-        at[mine] = np.stack([np.interp(wanted, length, piece[:, c]) for c in range(3)], axis=1)
-    return at
+    def places(self, points: FloatArray, normals: FloatArray, parameters: FloatArray) -> Nearest:
+        """Places at parameters of one loop.
+
+        Parameters
+        ----------
+        points : (n, 3) the loop's points in order, on the surface.
+        normals : (n, 3) unit surface normals there.
+        parameters : (m,) in [0, n): k is point k, the fraction is a share of the arc length to the next point.
+        """
+        border = _mesh_border(self._mesh, points)
+        pieces = border if border is not None else _spline(points)
+        count = len(points)
+        found = Nearest(
+            np.zeros(len(parameters)),
+            np.zeros(len(parameters), np.int64),
+            np.zeros((len(parameters), 3)),
+            np.zeros((len(parameters), 3)),
+        )
+        first = np.floor(parameters).astype(np.int64) % count
+        for k, piece in enumerate(pieces):
+            mine = np.flatnonzero(first == k)
+            share = np.mod(parameters[mine], 1.0)
+            if border is not None:
+                near = self._finder.closest(resample(piece, share))
+            else:
+                near = self._on_surface(piece, normals[k], normals[(k + 1) % count], share)
+            for whole, part in zip(found, near, strict=True):
+                whole[mine] = part
+        return found
+
+    def _on_surface(self, piece: FloatArray, start: FloatArray, stop: FloatArray, share: FloatArray) -> Nearest:
+        """Places at shares of one piece between two points with normals `start` and `stop`."""
+        every = np.concatenate([np.linspace(0, 1, _SAMPLES), share])
+        facing = unit_vectors((1 - every[:, None]) * start + every[:, None] * stop)
+        near = closest_agreeing(self._finder, resample(piece, every), facing)
+        length = line_length(piece)
+        step = np.linalg.norm(np.diff(near.point[:_SAMPLES], axis=0), axis=1)
+        if step.max() > _JUMP * length / (_SAMPLES - 1):
+            ends = self._finder.closest(piece[[0, -1]])
+            line, strip = self._paths.path(*(Nearest(*(values[k : k + 1] for values in ends)) for k in (0, 1)))
+            if line_length(line) < _DETOUR * length:
+                return strip.closest(resample(line, share))
+        return Nearest(*(values[_SAMPLES:] for values in near))
 
 
 def _spline(points: FloatArray) -> list[FloatArray]:

@@ -7,24 +7,37 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.sparse.linalg import splu
 
-from .arrays import BoolArray, FloatArray, IntArray
+from .arrays import BoolArray, FloatArray, IntArray, unit_vectors
 from .base_mesh import BaseLoop
-from .boundary_curve import boundary_places
-from .closest_point import SurfaceFinder
+from .boundary_curve import BoundaryCurves
+from .closest_point import Nearest, SurfaceFinder
 from .errors import RetargetError
 from .mesh import TriMesh
+from .piercing import Pierced, closest_agreeing, outliers, pierce
 from .points import FeaturePoints
 from .raycast import EmbreeCaster, RayCaster
 from .subdivision import Level, boundary_parameters
+from .vertex_neighbours import adjacency, incidence, mean_of_known, rings, spread_inwards
 
-_AGREEMENT = 0.2
-"""A hit counts where the surface normal's dot product with the ray's normal is above this."""
-_REACH = 2.5
-"""A hit counts within this many local edges."""
-_OUTLIER = 1.5
-"""A hit whose offset differs from its neighbours' median by more than this many local edges does not count."""
+_SPREAD_ROUNDS = 6
+_SECOND_LOOKS = 2
+_SOFTNESS = (0, 1, 2, 4, 8, 16)
+"""Rings over which a second look averages its normal, tried in this order."""
+
+
+@dataclass(frozen=True, eq=False)
+class SecondLook:
+    """Vertices that are pierced again, from the mean of their neighbours along a softened normal.
+
+    vertices : (K,). fill : (K, N) csr to that mean. direction : (K, M) csr, face vectors to the normal, not yet of
+    unit length. offsets : (K,) along it; 0 where this look found nothing either.
+    """
+
+    vertices: IntArray
+    fill: sp.csr_matrix
+    direction: sp.csr_matrix
+    offsets: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,14 +46,17 @@ class NormalLevel:
 
     Attributes
     ----------
-    positions : (N, 3).
+    positions : (N, 3), on the face.
     faces : (M, 3).
-    offsets : (N,) signed distance along the unit normal from the prediction; 0 where the vertex is not pierced.
+    offsets : (N,) signed distance along the unit normal of the prediction; 0 on the boundary and where another rule
+        placed the vertex (`second_looks`, `failed`).
     boundary : (B,) vertices on the base's boundary loops.
-    displacement : (B, 3) from their prediction to their place on the loop's curve.
-    failed : (N,) piercing errors: vertices no admissible hit was found for.
-    fill : (K, N) csr, failed vertices as weighted means of the others.
-    correction : (K, 3) from that mean to the closest place of the surface.
+    displacement : (B, 3) from where subdivision puts them to their place on the loop's curve.
+    spread : (N, B) csr: how the prediction's other vertices follow the displacement.
+    second_looks : vertices without an admissible hit at first, and how they were pierced then.
+    failed : (N,) true for piercing errors: no look found an admissible hit.
+    fill : (K, N) csr, failed vertices as means of their neighbours.
+    correction : (K, 3) from that mean to the closest place of the face whose normal agrees.
     place_face : (N,) face of the original mesh that each vertex lies on.
     place_weights : (N, 3) barycentric weights there.
     """
@@ -50,6 +66,8 @@ class NormalLevel:
     offsets: FloatArray
     boundary: IntArray
     displacement: FloatArray
+    spread: sp.csr_matrix
+    second_looks: tuple[SecondLook, ...]
     failed: BoolArray
     fill: sp.csr_matrix
     correction: FloatArray
@@ -66,7 +84,7 @@ class NormalLevel:
 class NormalMesh:
     """A face resampled on the hierarchy of a base mesh.
 
-    base : (B, 3) positions of the feature points. steps, levels : subdivision and normal mesh of levels 1, 2, ….
+    base : (B, 3) positions of the base's points. steps, levels : subdivision and normal mesh of levels 1, 2, ….
     """
 
     base: FloatArray
@@ -78,6 +96,11 @@ class NormalMesh:
         """Failed vertices per level."""
         return [level.piercing_errors for level in self.levels]
 
+    @property
+    def second_looks(self) -> list[int]:
+        """Vertices per level that missed at first and were pierced from the mean of their neighbours."""
+        return [sum(int((look.offsets != 0).sum()) for look in level.second_looks) for level in self.levels]
+
 
 def build_normal_mesh(
     mesh: TriMesh,
@@ -88,11 +111,14 @@ def build_normal_mesh(
 ) -> NormalMesh:
     """Pierce a face level by level.
 
-    Every level is predicted by subdivision; boundary vertices move to the curves of their loops; every other
-    vertex moves along its normal, either way, to the nearest hit on the face whose normal agrees and that
-    is near. A vertex without such a hit, or whose offset is an outlier among its neighbours', is a *piercing
-    error*: it becomes the mean of its neighbours, moved to the closest place of the surface with an agreeing
-    normal.
+    Every level is predicted by subdivision; its boundary vertices move to the curves of their loops and the
+    others near by follow. Then every other vertex moves along the prediction's unit normal (area-weighted), either
+    way, to the nearest hit whose normal agrees and that is near. Hits that are outliers among their neighbours are
+    dropped. What missed is looked for again from the mean of its neighbours along normals averaged over growing
+    rings, by the same rule.
+
+    What no look finds is a *piercing error*: it becomes the mean of its neighbours, moved to the closest place of the
+    surface whose normal agrees. Vertices found by a second look are not errors, but are counted in `second_looks`.
 
     Parameters
     ----------
@@ -102,23 +128,41 @@ def build_normal_mesh(
     steps : the subdivision hierarchy of the base, one step per level.
     caster : casts rays on `mesh`; Embree if none is given.
 
+    Raises
+    ------
+    RetargetError : if the hierarchy does not start from the points.
+
     References
     ----------
     Guskov et al. 2000; Na and Jung 2004, section 3, equations (6) and (7).
     """
     if not steps or steps[0].matrix.shape[1] != len(points):
-        raise RetargetError(f"{len(points)} base points and a hierarchy that does not start from them")
+        start = steps[0].matrix.shape[1] if steps else 0
+        raise RetargetError(f"the hierarchy starts from {start} base vertices, but {len(points)} points arrived")
     builder = _Builder(mesh, points, loops, steps, caster or EmbreeCaster(mesh))
-    levels: list[NormalLevel] = []
     base = points.positions(mesh.vertices)
-    previous = base
+    levels: list[NormalLevel] = []
+    positions = base
     for number, step in enumerate(steps):
-        levels.append(builder.level(previous, step, number))
-        previous = levels[-1].positions
+        levels.append(builder.level(positions, step, number))
+        positions = levels[-1].positions
     return NormalMesh(base, tuple(steps), tuple(levels))
 
 
+class _Places:
+    """Where on the face each vertex of a level lies, as it becomes known."""
+
+    def __init__(self, count: int) -> None:
+        self.face = np.full(count, -1, np.int64)
+        self.weights = np.zeros((count, 3))
+
+    def put(self, vertices: IntArray, places: Nearest | Pierced, rows: IntArray | slice = slice(None)) -> None:
+        self.face[vertices], self.weights[vertices] = places.face[rows], places.weights[rows]
+
+
 class _Builder:
+    """The face, and where the boundary loops run on it."""
+
     def __init__(
         self,
         mesh: TriMesh,
@@ -127,102 +171,118 @@ class _Builder:
         steps: Sequence[Level],
         caster: RayCaster,
     ) -> None:
-        self.mesh, self.caster = mesh, caster
-        self.finder = SurfaceFinder(mesh)
-        self.rings = boundary_parameters([loop.vertices for loop in loops], steps)
+        self._mesh, self._caster = mesh, caster
+        self._finder = SurfaceFinder(mesh)
+        self._rings = boundary_parameters([loop.vertices for loop in loops], steps)
         base = points.positions(mesh.vertices)
         normals = points.positions(mesh.vertex_normals)
-        finest = [self.rings[-1][k][1] for k in range(len(loops))]
-        self.curves = [
-            (t, boundary_places(mesh, self.finder, base[loop.vertices], normals[loop.vertices], t))
-            for loop, t in zip(loops, finest, strict=True)
-        ]
+        curves = BoundaryCurves(mesh, self._finder)
+        self._curves = []
+        for loop, (_, parameters) in zip(loops, self._rings[-1], strict=True):
+            places = curves.places(base[loop.vertices], normals[loop.vertices], parameters)
+            self._curves.append((parameters, places))
 
-    def level(self, previous: FloatArray, step: Level, number: int) -> NormalLevel:
-        predicted = step.matrix @ previous
-        count = len(predicted)
-        place_face = np.full(count, -1, np.int64)
-        place_weights = np.zeros((count, 3))
+    def level(self, coarse: FloatArray, step: Level, number: int) -> NormalLevel:
+        """Predict, move the boundary, pierce, look again, fill."""
+        predicted = step.matrix @ coarse
         positions = predicted.copy()
-        for (vertices, parameters), (fine, places) in zip(self.rings[number], self.curves, strict=True):
-            rows = np.searchsorted(fine, parameters)
-            positions[vertices] = places.point[rows]
-            place_face[vertices] = places.face[rows]
-            place_weights[vertices] = places.weights[rows]
-        boundary = np.flatnonzero(place_face >= 0)
-        moved = TriMesh(positions, step.faces)
-        normals, edge = moved.vertex_normals, moved.vertex_edge_length
-        inner = np.flatnonzero(place_face < 0)
-        offset, face, weights = self.pierce(positions[inner], normals[inner], edge[inner])
-        offsets = np.zeros(count)
-        failed = np.zeros(count, bool)
-        offsets[inner], place_face[inner], place_weights[inner] = offset, face, weights
-        failed[inner] = face < 0
-        failed |= self.outliers(moved, offsets, failed, place_face >= 0)
-        offsets[failed] = 0.0
-        positions = positions + offsets[:, None] * normals
-        fill = neighbour_means(moved, failed)
-        bad = np.flatnonzero(failed)
-        correction = np.zeros((len(bad), 3))
-        if len(bad):
-            mean = fill @ positions
-            positions[bad] = mean
-            facing = TriMesh(positions, step.faces).vertex_normals[bad]
-            near = self.finder.closest(mean, facing, _AGREEMENT)
-            lost = near.face < 0
-            if lost.any():
-                for mine, other in zip(near, self.finder.closest(mean[lost]), strict=True):
-                    mine[lost] = other
-            positions[bad] = near.point
-            correction = near.point - mean
-            place_face[bad], place_weights[bad] = near.face, near.weights
+        places = _Places(len(predicted))
+        self._place_boundary(number, positions, places)
+        boundary = np.flatnonzero(places.face >= 0)
+        neighbours = adjacency(TriMesh(positions, step.faces))
+        spread = spread_inwards(neighbours, boundary, _SPREAD_ROUNDS)
+        displacement = (positions - predicted)[boundary]
+        positions += spread @ displacement
+        prediction = TriMesh(positions, step.faces)
+        offsets, failed = self._pierce(prediction, neighbours, places)
+        positions = positions + offsets[:, None] * prediction.vertex_normals
+        looks = []
+        for _ in range(_SECOND_LOOKS):
+            if failed.any():
+                looks.append(self._look_again(positions, step.faces, neighbours, failed, places))
+        unknown = np.flatnonzero(failed)
+        fill = mean_of_known(neighbours, unknown)
+        correction = self._fill(positions, step.faces, unknown, fill, places)
         return NormalLevel(
             positions,
             step.faces,
             offsets,
             boundary,
-            positions[boundary] - predicted[boundary],
+            displacement,
+            spread,
+            tuple(looks),
             failed,
             fill,
             correction,
-            place_face,
-            place_weights,
+            places.face,
+            places.weights,
         )
 
-    def pierce(
-        self, origins: FloatArray, normals: FloatArray, edge: FloatArray
-    ) -> tuple[FloatArray, IntArray, FloatArray]:
-        """Signed offset, face (-1: no admissible hit) and weights of the nearest admissible hit."""
-        best = np.full(len(origins), np.inf)
-        face = np.full(len(origins), -1, np.int64)
-        weights = np.zeros((len(origins), 3))
-        for sign in (1.0, -1.0):
-            hits = self.caster.nearest(origins, sign * normals, _REACH * edge)
-            agree = np.einsum("ij,ij->i", self.mesh.face_normals[hits.face], normals) > _AGREEMENT
-            better = hits.found & agree & (hits.distance < np.abs(best))
-            best[better] = sign * hits.distance[better]
-            face[better], weights[better] = hits.face[better], hits.weights[better]
-        return np.where(face >= 0, best, 0.0), face, weights
+    def _place_boundary(self, number: int, positions: FloatArray, places: _Places) -> None:
+        for (vertices, parameters), (fine, curve) in zip(self._rings[number], self._curves, strict=True):
+            rows = np.searchsorted(fine, parameters)
+            positions[vertices] = curve.point[rows]
+            places.put(vertices, curve, rows)
 
-    def outliers(self, mesh: TriMesh, offsets: FloatArray, failed: BoolArray, on_curve: BoolArray) -> BoolArray:
-        return np.zeros(len(offsets), bool)
+    def _pierce(
+        self, predicted: TriMesh, neighbours: sp.csr_matrix, places: _Places
+    ) -> tuple[FloatArray, BoolArray]:
+        """Offsets (N,) of the first look, and what it missed."""
+        inner = np.flatnonzero(places.face < 0)
+        edges = predicted.vertex_edge_length
+        found = pierce(
+            self._mesh, self._caster, predicted.vertices[inner], predicted.vertex_normals[inner], edges[inner]
+        )
+        offsets = np.zeros(len(edges))
+        offsets[inner] = found.offset
+        hit = np.zeros(len(edges), bool)
+        hit[inner] = found.face >= 0
+        failed = np.zeros(len(edges), bool)
+        failed[inner] = found.face < 0
+        places.put(inner, found)
+        failed |= outliers(neighbours, offsets, hit, edges)
+        offsets[failed] = 0.0
+        return offsets, failed
 
+    def _look_again(
+        self, positions: FloatArray, faces: IntArray, neighbours: sp.csr_matrix, failed: BoolArray, places: _Places
+    ) -> SecondLook:
+        """Pierce failed vertices from the mean of their neighbours; updates positions, failed and places."""
+        unknown = np.flatnonzero(failed)
+        fill = mean_of_known(neighbours, unknown)
+        positions[unknown] = fill @ positions
+        mesh = TriMesh(positions.copy(), faces)
+        touching = incidence(mesh)
+        edges = mesh.vertex_edge_length
+        offsets = np.zeros(len(unknown))
+        directions = sp.csr_matrix((len(unknown), len(faces)))
+        for softness in _SOFTNESS:
+            rows = np.flatnonzero(failed[unknown])
+            around = rings(neighbours, unknown[rows], softness)
+            direction = around @ touching
+            normals = unit_vectors(direction @ mesh.face_vectors)
+            found = pierce(self._mesh, self._caster, mesh.vertices[unknown[rows]], normals, around @ edges)
+            hit = np.flatnonzero(found.face >= 0)
+            offsets[rows[hit]] = found.offset[hit]
+            chosen = sp.csr_matrix((np.ones(len(hit)), (rows[hit], hit)), shape=(len(unknown), len(rows)))
+            directions = directions + chosen @ direction
+            vertices = unknown[rows[hit]]
+            positions[vertices] += found.offset[hit, None] * normals[hit]
+            failed[vertices] = False
+            places.put(vertices, found, hit)
+        return SecondLook(unknown, fill, directions.tocsr(), offsets)
 
-def neighbour_means(mesh: TriMesh, unknown: BoolArray) -> sp.csr_matrix:
-    """(K, N) matrix: the K unknown vertices as means of their neighbours, all means repeated until they rest."""
-    bad = np.flatnonzero(unknown)
-    count = len(mesh.vertices)
-    if not len(bad):
-        return sp.csr_matrix((0, count))
-    i, j = np.concatenate([mesh.edges, mesh.edges[:, ::-1]]).T
-    mean = sp.csr_matrix((np.ones(len(i)), (i, j)), shape=(count, count))[bad]
-    degree = np.asarray(mean.sum(axis=1)).ravel()
-    known = mean @ sp.diags((~unknown).astype(float))
-    system = sp.diags(degree) - mean[:, bad]
-    dense = splu(system.tocsc()).solve(known.tocsc()[:, np.unique(known.indices)].toarray())
-    columns = np.unique(known.indices)
-    rows = np.repeat(np.arange(len(bad)), len(columns))
-    matrix = sp.csr_matrix((dense.ravel(), (rows, np.tile(columns, len(bad)))), shape=(len(bad), count))
-    matrix.data[np.abs(matrix.data) < 1e-9] = 0
-    matrix.eliminate_zeros()
-    return matrix
+    def _fill(
+        self, positions: FloatArray, faces: IntArray, unknown: IntArray, fill: sp.csr_matrix, places: _Places
+    ) -> FloatArray:
+        """Put piercing errors on the surface near their neighbours' mean; returns the way there (K, 3)."""
+        if not len(unknown):
+            return np.zeros((0, 3))
+        mean = fill @ positions
+        positions[unknown] = mean
+        facing = TriMesh(positions, faces).vertex_normals[unknown]
+        near = closest_agreeing(self._finder, mean, facing)
+        positions[unknown] = near.point
+        places.put(unknown, near)
+        correction: FloatArray = near.point - mean
+        return correction

@@ -7,17 +7,19 @@ from collections.abc import Sequence
 import numpy as np
 import scipy.sparse as sp
 
-from .arrays import FloatArray, IntArray
+from .arrays import FloatArray, IntArray, cross, unit_vectors
 from .errors import RetargetError
-from .normal_mesh import NormalMesh
+from .mesh import TriMesh
+from .normal_mesh import NormalLevel, NormalMesh, SecondLook
+from .vertex_neighbours import incidence
 
 
 class NormalSynthesis:
     """Rebuilds the levels of a normal mesh, frame by frame, in float32.
 
-    Per level: subdivision, boundary vertices moved by their displacement, every other vertex moved by its
-    offset along the unit normal, failed vertices put at the mean of their neighbours plus their correction.
-    With the neutral's own base and offsets the result is the neutral's normal mesh.
+    Per level: subdivision, boundary vertices moved by their displacement (and the others near by after them), every
+    other vertex moved by its offset along the unit normal; vertices of a second look and failed ones placed anew by
+    the mean of their neighbours. With the neutral's own base and offsets the result is the neutral's normal mesh.
 
     References
     ----------
@@ -26,10 +28,9 @@ class NormalSynthesis:
 
     def __init__(self, normal_mesh: NormalMesh) -> None:
         self._levels = [
-            _LevelSynthesis(step.matrix, level.faces, level.boundary, level.displacement, level.fill, level.correction)
+            _LevelSynthesis(step.matrix, level)
             for step, level in zip(normal_mesh.steps, normal_mesh.levels, strict=True)
         ]
-        self._failed = [np.flatnonzero(level.failed) for level in normal_mesh.levels]
         self._neutral = [level.offsets.astype(np.float32) for level in normal_mesh.levels]
         self._base_count = len(normal_mesh.base)
 
@@ -57,40 +58,40 @@ class NormalSynthesis:
                 )
         finest = np.empty((len(base), self._levels[-1].count, 3), np.float32)
         for frame, positions in enumerate(base):
-            for level, failed, own in zip(self._levels, self._failed, chosen, strict=True):
-                positions = level.apply(positions, own if own.ndim == 1 else own[frame], failed)
+            for level, own in zip(self._levels, chosen, strict=True):
+                positions = level.apply(positions, own if own.ndim == 1 else own[frame])
             finest[frame] = positions
         return finest
 
 
 class _LevelSynthesis:
-    def __init__(
-        self,
-        matrix: sp.csr_matrix,
-        faces: IntArray,
-        boundary: IntArray,
-        displacement: FloatArray,
-        fill: sp.csr_matrix,
-        correction: FloatArray,
-    ) -> None:
+    """The fixed matrices and the scratch of one level."""
+
+    def __init__(self, matrix: sp.csr_matrix, level: NormalLevel) -> None:
         self.count = int(matrix.shape[0])
         self._matrix = matrix.astype(np.float32)
-        self._corners = np.ascontiguousarray(faces.T).astype(np.intp)
-        ones = np.ones(faces.size, np.float32)
-        incidence = sp.csr_matrix((ones, (faces.ravel(), np.repeat(np.arange(len(faces)), 3))), (self.count, len(faces)))
-        self._incidence = incidence
-        self._boundary, self._displacement = boundary, displacement.astype(np.float32)
-        self._fill, self._correction = fill.astype(np.float32), correction.astype(np.float32)
-        self._a, self._b, self._c = (np.empty((len(faces), 3), np.float32) for _ in range(3))
+        self._corners = np.ascontiguousarray(level.faces.T).astype(np.intp)
+        self._incidence = incidence(TriMesh(level.positions, level.faces)).astype(np.float32)
+        self._boundary, self._displacement = level.boundary, level.displacement.astype(np.float32)
+        # The boundary's displacement is constant, and so is what follows it.
+        self._followers = np.flatnonzero(np.diff(level.spread.indptr))
+        self._following = (level.spread @ level.displacement)[self._followers].astype(np.float32)
+        self._looks = [_LookSynthesis(look, level.faces) for look in level.second_looks]
+        self._failed = np.flatnonzero(level.failed)
+        self._fill, self._correction = level.fill.astype(np.float32), level.correction.astype(np.float32)
+        self._a, self._b, self._c = (np.empty((len(level.faces), 3), np.float32) for _ in range(3))
 
-    def apply(self, coarse: FloatArray, offsets: FloatArray, failed: IntArray) -> FloatArray:
+    def apply(self, coarse: FloatArray, offsets: FloatArray) -> FloatArray:
         fine: FloatArray = self._matrix @ coarse
         fine[self._boundary] += self._displacement
+        fine[self._followers] += self._following
         normals = self._normals(fine)
         normals *= offsets[:, None]
         fine += normals
-        if len(failed):
-            fine[failed] = self._fill @ fine + self._correction
+        for look in self._looks:
+            look.apply(fine)
+        if len(self._failed):
+            fine[self._failed] = self._fill @ fine + self._correction
         return fine
 
     def _normals(self, positions: FloatArray) -> FloatArray:
@@ -112,3 +113,20 @@ class _LevelSynthesis:
         np.maximum(length, 1e-30, out=length)
         normals /= length[:, None]
         return normals
+
+
+class _LookSynthesis:
+    """A second look on the few faces that it needs."""
+
+    def __init__(self, look: SecondLook, faces: IntArray) -> None:
+        used = np.unique(look.direction.indices)
+        self._faces = faces[used]
+        self._direction = look.direction[:, used].astype(np.float32)
+        self._vertices, self._fill = look.vertices, look.fill.astype(np.float32)
+        self._offsets = look.offsets.astype(np.float32)[:, None]
+
+    def apply(self, positions: FloatArray) -> None:
+        positions[self._vertices] = self._fill @ positions
+        a, b, c = (positions[self._faces[:, k]] for k in range(3))
+        normals = unit_vectors(self._direction @ cross(b - a, c - a))
+        positions[self._vertices] += self._offsets * normals
