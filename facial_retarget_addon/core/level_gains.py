@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
 import scipy.sparse as sp
 
 from .arrays import FloatArray
@@ -51,15 +50,3 @@ def scale_levels(
         size = step.vertex_count
     on_base = ride @ scaled + detail * (carry - ride @ fine)
     return (sp.diags(inside) @ on_base + sp.diags(gains[0] * (1 - inside)) @ carry).tocsr()
-
-
-def band_energies(motion: FloatArray, steps: Sequence[Level]) -> FloatArray:
-    """Root mean square length that the base and each level add to fine displacements (F, N, 3): (L + 1,)."""
-    size = steps[0].matrix.shape[1]
-    energies = [float(np.sqrt(np.square(motion[:, :size]).sum(axis=2).mean()))]
-    for step in steps:
-        coarse = motion[:, :size].transpose(1, 0, 2).reshape(size, -1)
-        band = motion[:, : step.vertex_count].transpose(1, 0, 2).reshape(step.vertex_count, -1) - step.matrix @ coarse
-        energies.append(float(np.sqrt(np.square(band).sum() / (len(motion) * step.vertex_count))))
-        size = step.vertex_count
-    return np.array(energies)

@@ -74,7 +74,7 @@ class TestResiduals:
     def target(self, rng: np.random.Generator) -> np.ndarray:
         return rng.uniform(-1, 1, size=(500, 3))
 
-    def fit(self, base: np.ndarray, moves: np.ndarray, target: np.ndarray, wanted: float, trust: float = 1.0):  # noqa: ANN201
+    def fit(self, base: np.ndarray, moves: np.ndarray, target: np.ndarray, wanted: float, trust: float = 1.0):
         carried = spread_matrix(target, base, 0.12) @ moves.transpose(1, 0, 2).reshape(40, -1)
         carried = carried.reshape(500, 6, 3).transpose(1, 0, 2)
         pairs = ExamplePairs(moves, carried, wanted * carried)

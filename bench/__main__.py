@@ -1,0 +1,28 @@
+"""Run the bench, print its tables, and end with status 1 where a bound is missed."""
+
+import sys
+from importlib import import_module
+
+SECTIONS = ("fit", "piercing", "frames", "wrinkles", "real_faces", "blender_write")
+
+
+def main(names: list[str]) -> int:
+    """Run sections by name, or all of them."""
+    unknown = [name for name in names if name not in SECTIONS]
+    if unknown:
+        print(f"no section {', '.join(unknown)}; there are {', '.join(SECTIONS)}", file=sys.stderr)
+        return 2
+    missed = 0
+    for name in names or SECTIONS:
+        module = import_module(f".{name}", __package__)
+        print(
+            f"\n## {name}: {(module.__doc__ or '').splitlines()[0]}\n\n| what | measured | bound | |\n|---|---|---|---|"
+        )
+        for row in module.rows():
+            print(row, flush=True)
+            missed += not row.met
+    return 1 if missed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

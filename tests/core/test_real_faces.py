@@ -1,0 +1,73 @@
+"""What the first method must reach on a real pair of heads whose truth is known."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from facial_retarget_addon.core.mesh import TriMesh
+from facial_retarget_addon.core.methods.base import Face, Problem
+from facial_retarget_addon.core.methods.settings import HierarchicalSettings
+from facial_retarget_addon.core.retarget import Result, retarget
+from facial_retarget_addon.files.points import read_points
+
+FACE_VERTICES = 9_409
+
+
+@pytest.fixture(scope="module")
+def data(shared_data: Path) -> dict[str, np.ndarray]:
+    archive = np.load(shared_data / "pair_ict_id02_to_id04_decim.npz")
+    return {name: archive[name] for name in archive.files}
+
+
+@pytest.fixture(scope="module")
+def source(shared_data: Path, data: dict[str, np.ndarray]) -> Face:
+    mesh = TriMesh(data["src_vertices"], data["src_tris"])
+    return Face(mesh, read_points(shared_data / "pair_source_points.json", mesh))
+
+
+@pytest.fixture(scope="module")
+def target(shared_data: Path, data: dict[str, np.ndarray]) -> Face:
+    mesh = TriMesh(data["tgt_vertices"], data["tgt_tris"])
+    return Face(mesh, read_points(shared_data / "pair_target_points.json", mesh))
+
+
+@pytest.fixture(scope="module")
+def result(source: Face, target: Face, data: dict[str, np.ndarray]) -> Result:
+    """All expressions, then a frame of no motion."""
+    motion = np.concatenate([data["src_expr_delta"], np.zeros((1, *source.mesh.vertices.shape))])
+    frames = (source.mesh.vertices + motion).astype(np.float32)
+    return retarget("hierarchical", Problem(source, target), HierarchicalSettings(), frames)
+
+
+def relative_errors(found: np.ndarray, truth: np.ndarray) -> np.ndarray:
+    error = np.linalg.norm((found - truth).reshape(len(truth), -1), axis=1)
+    return error / np.linalg.norm(truth.reshape(len(truth), -1), axis=1)
+
+
+def test_the_face_is_met(result: Result, target: Face, data: dict[str, np.ndarray]) -> None:
+    face = (data["src_tris"][data["corr_src_face"]] < FACE_VERTICES).all(axis=1)
+    found = result.frames[:-1, face] - target.mesh.vertices[face]
+    errors = relative_errors(found, data["gt_expr_delta"][:, face])
+    assert np.median(errors) <= 0.08
+    assert np.quantile(errors, 0.9) <= 0.14
+
+
+def test_the_whole_head_is_met(result: Result, target: Face, data: dict[str, np.ndarray]) -> None:
+    errors = relative_errors(result.frames[:-1] - target.mesh.vertices, data["gt_expr_delta"])
+    assert np.median(errors) <= 0.10
+
+
+def test_no_motion_is_no_motion(result: Result, target: Face) -> None:
+    np.testing.assert_array_equal(result.frames[-1], target.mesh.vertices.astype(np.float32))
+
+
+def test_nothing_tears(result: Result) -> None:
+    assert result.report["quality"]["torn_edges_per_million"] <= 15
+
+
+def test_a_face_onto_itself_is_itself(source: Face, data: dict[str, np.ndarray]) -> None:
+    motion = data["src_expr_delta"][::6]
+    frames = (source.mesh.vertices + motion).astype(np.float32)
+    found = retarget("hierarchical", Problem(source, source), HierarchicalSettings(), frames).frames
+    assert relative_errors(found - source.mesh.vertices, motion).max() <= 0.03
