@@ -31,10 +31,11 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, eq=False)
 class Inputs:
-    """What a job's files hold: the problem, the source's frames (F, Vs, 3), the target as it stands in its file."""
+    """What a job's files hold: the problem, the source's frames (F, Vs, 3), both faces as they stand in their files."""
 
     problem: Problem
     frames: FloatArray | None
+    source: MeshFile
     target: MeshFile
 
 
@@ -99,6 +100,20 @@ def check_job(path: Path) -> Findings:
     return Findings([], warnings(inputs.problem, inputs.frames, job.settings))
 
 
+def read_inputs(job: Job) -> Inputs:
+    """What a job's files hold, for a scene to show; the problem itself is not checked.
+
+    Raises
+    ------
+    RetargetError : if files are missing or unreadable; names all of them.
+    """
+    reading = _Reading()
+    inputs = reading.inputs(job)
+    if reading.wrong or inputs is None:
+        raise RetargetError("; ".join(reading.wrong))
+    return inputs
+
+
 def _read_and_check(job: Job) -> tuple[Inputs | None, list[str]]:
     """What the files hold, and all that is wrong; None where so much is unreadable that there is no problem."""
     reading = _Reading()
@@ -152,6 +167,7 @@ class _Reading:
                 base,
             ),
             frames,
+            source,
             target,
         )
 
