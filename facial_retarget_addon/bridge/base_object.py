@@ -11,6 +11,8 @@ from ..core.errors import RetargetError
 from .meshes import new_object, read_polygons, replace_geometry
 from .points import point_positions, read_points
 
+Triangles = tuple[tuple[str, str, str], ...]
+
 ATTRIBUTE = "feature_point"
 """A text for each vertex: its point's name. It survives editing in Edit Mode."""
 
@@ -35,7 +37,14 @@ def show_base(thing: Object, names: tuple[str, ...], faces: IntArray) -> Object:
     return made
 
 
-def read_base(thing: Object) -> tuple[tuple[str, str, str], ...]:
+def show_triangles(thing: Object, triangles: Triangles) -> Object:
+    """Show an artist's own base, triangles over point names, on a face; see `show_base`."""
+    names = tuple(dict.fromkeys(name for corners in triangles for name in corners))
+    row = {name: i for i, name in enumerate(names)}
+    return show_base(thing, names, np.array([[row[name] for name in corners] for corners in triangles], np.int64))
+
+
+def read_base(thing: Object) -> Triangles:
     """The triangles of a base object over point names.
 
     Raises

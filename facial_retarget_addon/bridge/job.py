@@ -8,20 +8,18 @@ from pathlib import Path
 import bpy
 from bpy.types import Context, Object
 
-from ..core.arrays import FloatArray
 from ..core.errors import RetargetError
 from ..core.methods.base import Face
-from ..files.base_mesh import read_base_mesh, write_base_mesh
-from ..files.frames import read_frames as read_frames_file
+from ..files.base_mesh import write_base_mesh
 from ..files.frames import write_frames as write_frames_file
 from ..files.job import ExampleFiles, FaceFiles, Job, OutputFiles, read_job, write_job
 from ..files.mesh_file import MeshFile
-from ..files.meshes import read_mesh, write_mesh
-from ..files.points import read_points as read_points_file
+from ..files.meshes import write_mesh
 from ..files.points import write_points as write_points_file
+from ..files.run import read_inputs
 from .background import Steps, part
 from .bake import write_frames
-from .base_object import show_base
+from .base_object import show_triangles
 from .examples import write_example
 from .meshes import new_face, read_face
 from .performance import read_frames
@@ -88,30 +86,17 @@ def load_job(context: Context, path: Path, up: str) -> None:
     RetargetError : for a job or file that is bad; everything is read before anything is made.
     """
     job = read_job(path)
-    faces = {"source": read_mesh(job.source.neutral), "target": read_mesh(job.target.neutral)}
-    files = {"source": job.source, "target": job.target}
-    points = {role: _read_points(files[role], face, role) for role, face in faces.items()}
-    frames = read_frames_file(job.source.frames, len(faces["source"].mesh.vertices))
-    examples = [
-        (example.name, role, _read_example(file, faces[role]))
-        for example in job.examples
-        for role, file in (("source", example.source), ("target", example.target))
-    ]
-    base = None if job.base is None else read_base_mesh(job.base)
-
-    things: dict[str, Object] = {}
-    for role, face in faces.items():
-        thing = things[role] = new_face(files[role].neutral.stem, face)
-        thing.rotation_euler.x = radians(90) if up == "Y" else 0.0
-        write_points(thing, points[role])
-    for name, role, positions in examples:
-        write_example(things[role], name, positions)
-    write_frames(things["source"], frames, first=1)
+    inputs = read_inputs(job)
+    problem = inputs.problem
+    for face in (problem.source, problem.target):
+        _check_examples(face)
 
     task = context.scene.facial_retarget
-    task.source, task.target = things["source"], things["target"]
+    task.source = _make_face(job.source.neutral.stem, inputs.source, problem.source, up)
+    task.target = _make_face(job.target.neutral.stem, inputs.target, problem.target, up)
+    write_frames(task.source, inputs.frames, first=1)
     task.source_neutral = "BASIS"
-    task.use_scene_range, task.frame_start, task.frame_end = False, 1, len(frames)
+    task.use_scene_range, task.frame_start, task.frame_end = False, 1, len(inputs.frames)
     task.examples.clear()
     for example in job.examples:
         task.examples.add().name = example.name
@@ -119,26 +104,23 @@ def load_job(context: Context, path: Path, up: str) -> None:
     task.output, task.report, task.page = (
         "" if file is None else str(file) for file in (job.output.frames, job.output.report, job.output.page)
     )
-    task.base = None if base is None else _show_own_base(things["source"], base)
+    task.base = None if problem.base is None else show_triangles(task.source, problem.base)
     context.view_layer.update()
 
 
-def _read_points(files: FaceFiles, face: MeshFile, role: str):
-    if files.points is None:
-        raise RetargetError(f"the job has no [{role}] points, expected feature points")
-    return read_points_file(files.points, face.mesh)
+def _check_examples(face: Face) -> None:
+    for name, positions in face.examples.items():
+        if positions.shape != face.mesh.vertices.shape:
+            raise RetargetError(
+                f"example {name!r} has {len(positions)} vertices, expected its neutral's {len(face.mesh.vertices)}"
+            )
 
 
-def _read_example(path: Path, neutral: MeshFile) -> FloatArray:
-    vertices = read_mesh(path).mesh.vertices
-    if len(vertices) != len(neutral.mesh.vertices):
-        raise RetargetError(f"{path} has {len(vertices)} vertices, expected the neutral's {len(neutral.mesh.vertices)}")
-    return vertices
-
-
-def _show_own_base(thing: Object, triangles: tuple[tuple[str, str, str], ...]) -> Object:
-    names = tuple(dict.fromkeys(name for corners in triangles for name in corners))
-    row = {name: i for i, name in enumerate(names)}
-    import numpy as np
-
-    return show_base(thing, names, np.array([[row[name] for name in corners] for corners in triangles], np.int64))
+def _make_face(name: str, file: MeshFile, face: Face, up: str) -> Object:
+    """A new object with its points, and its examples as shape keys."""
+    thing = new_face(name, file)
+    thing.rotation_euler.x = radians(90) if up == "Y" else 0.0
+    write_points(thing, face.points)
+    for example, positions in face.examples.items():
+        write_example(thing, example, positions)
+    return thing
