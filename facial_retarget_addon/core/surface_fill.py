@@ -4,61 +4,96 @@ from __future__ import annotations
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.sparse.linalg import SuperLU, splu
+from scipy.sparse.csgraph import connected_components
+from scipy.sparse.linalg import splu
 
-from .arrays import BoolArray
+from .arrays import BoolArray, FloatArray
 from .mesh import TriMesh
 
-_BLOCK = 256
+_BLOCK = 64
 
 
-def harmonic_fill(mesh: TriMesh, known: BoolArray, active: BoolArray, cut: float = 0.01) -> sp.csr_matrix:
-    """Matrix that keeps known values and spreads them harmonically over the other active vertices.
+class HarmonicFill:
+    """Spreads values from known vertices over the others, harmonically: short edges tie their ends together.
 
-    Parameters
-    ----------
-    known : (V,) vertices whose values are kept.
-    active : (V,) vertices that get a value; the others, and pieces without a known vertex, get zero.
-    cut : weights below this share of a row's greatest are dropped, so that rows stay short.
-
-    Returns
-    -------
-    (V, V) matrix whose rows add up to 1 or 0.
+    The unknown values x solve sum_j (x_i - x_j) / l_ij + decay_i x_i = 0 with l the edge lengths. Vertices that no
+    known one reaches get zero.
     """
-    count = len(mesh.vertices)
-    known = known & active
-    graph = mesh.graph.copy()
-    graph.data = mesh.edge_lengths.mean() / np.maximum(graph.data, 1e-3 * mesh.edge_lengths.mean())
-    free = np.flatnonzero(active & ~known)
-    rim = np.flatnonzero(known & (graph @ (active & ~known).astype(float) > 0))
-    keep = np.flatnonzero(known)
-    rows, columns, values = [keep], [keep], [np.ones(len(keep))]
-    if len(free) and len(rim):
-        between = graph[free][:, rim]
-        inside = graph[free][:, free]
-        degree = np.asarray(graph[free].sum(axis=1)).ravel()
-        # A trace of the identity keeps pieces without a known vertex solvable; their rows come out zero.
-        system = sp.diags(degree * (1 + 1e-9) + 1e-9 * degree.mean()) - inside
-        symmetric = {"SymmetricMode": True}
-        solver = splu(system.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=symmetric)
-        weights = _solve_sparse(solver, between, cut)
-        rows.append(free[weights.row])
-        columns.append(rim[weights.col])
-        values.append(weights.data)
-    shape = (count, count)
-    return sp.csr_matrix((np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), shape=shape)
 
+    def __init__(self, mesh: TriMesh, known: BoolArray, decay: FloatArray) -> None:
+        """Factor the system.
 
-def _solve_sparse(solver: SuperLU, right: sp.csr_matrix, cut: float) -> sp.coo_matrix:
-    """Solution (U, R) of the system for sparse right sides, its small weights dropped, rows adding up to 1 or 0."""
-    blocks = []
-    for start in range(0, right.shape[1], _BLOCK):
-        block = solver.solve(right[:, start : start + _BLOCK].toarray())
-        blocks.append(sp.csr_matrix(np.where(block > 1e-6, block, 0.0)))
-    solution = sp.hstack(blocks).tocsr()
-    greatest = solution.max(axis=1).toarray().ravel()
-    entries = solution.tocoo()
-    large = entries.data >= cut * greatest[entries.row]
-    row, column, value = entries.row[large], entries.col[large], entries.data[large]
-    total = np.bincount(row, value, minlength=right.shape[0])
-    return sp.coo_matrix((value / total[row], (row, column)), shape=right.shape)
+        Parameters
+        ----------
+        known : (V,) vertices whose values are kept.
+        decay : (V,) pull of the unknown values to zero, per unit of length; 0 for none.
+        """
+        self._known = np.asarray(known, bool)
+        graph = mesh.graph.copy()
+        graph.data = 1 / np.maximum(graph.data, 1e-3 * mesh.edge_lengths.mean())
+        # What no known vertex reaches stays out of the system.
+        unknown = sp.diags((~self._known).astype(float))
+        labels = connected_components(unknown @ graph @ unknown, directed=False)[1]
+        touched = np.zeros(len(known), bool)
+        touched[labels[~self._known & (graph @ self._known.astype(float) > 0)]] = True
+        self._free = np.flatnonzero(~self._known & touched[labels])
+        self._pieces = np.unique(labels[self._free], return_inverse=True)[1]
+        between = graph[self._free]
+        self._rim = np.flatnonzero(self._known & (between.T @ np.ones(len(self._free)) > 0))
+        self._between = between[:, self._rim].tocsr()
+        if len(self._free):
+            degree = np.asarray(between.sum(axis=1)).ravel() + decay[self._free]
+            # The matrix is symmetric and dominated by its diagonal: no pivoting is needed.
+            self._solver = splu(
+                (sp.diags(degree) - between[:, self._free]).tocsc(),
+                permc_spec="MMD_AT_PLUS_A",
+                diag_pivot_thresh=0.0,
+                options={"SymmetricMode": True},
+            )
+
+    def values(self, values: FloatArray) -> FloatArray:
+        """Values (V, C) with the unknown ones filled."""
+        filled = np.where(self._known[:, None], values, 0.0)
+        if len(self._free):
+            filled[self._free] = self._solver.solve(self._between @ values[self._rim])
+        return filled
+
+    def matrix(self, cut: float = 0.01) -> sp.csr_matrix:
+        """(V, V) matrix that does the same, its rows without weights below `cut` of their greatest."""
+        keep = np.flatnonzero(self._known)
+        rows, columns, weights = [keep], [keep], [np.ones(len(keep))]
+        if len(self._free):
+            row, rim, weight = self._weights(cut)
+            rows.append(self._free[row])
+            columns.append(self._rim[rim])
+            weights.append(weight)
+        entries = (np.concatenate(weights), (np.concatenate(rows), np.concatenate(columns)))
+        return sp.csr_matrix(entries, shape=(len(self._known),) * 2)
+
+    def _weights(self, cut: float) -> tuple[FloatArray, FloatArray, FloatArray]:
+        # Pieces of unknown vertices do not touch: the k-th rim vertices of all of them share one right side.
+        entry = self._between.tocoo()
+        piece = self._pieces[entry.row]
+        pair, pair_of = np.unique(piece * len(self._rim) + entry.col, return_inverse=True)
+        pair_piece, pair_rim = pair // len(self._rim), pair % len(self._rim)
+        first = np.searchsorted(pair_piece, np.arange(self._pieces.max() + 1))
+        turn = np.arange(len(pair)) - first[pair_piece]
+        right = sp.csc_matrix((entry.data, (entry.row, turn[pair_of])), shape=(len(self._free), int(turn.max()) + 1))
+        size = np.bincount(pair_piece)[self._pieces]
+        found = []
+        greatest = np.zeros(len(self._free))
+        for start in range(0, right.shape[1], _BLOCK):
+            active = np.flatnonzero(size > start)
+            solved = self._solver.solve(right[:, start : start + _BLOCK].toarray())[active]
+            solved[np.arange(start, start + solved.shape[1]) >= size[active, None]] = 0.0
+            greatest[active] = np.maximum(greatest[active], solved.max(axis=1))
+            row, column = np.nonzero(solved >= cut * greatest[active, None])
+            positive = solved[row, column] > 0
+            row, column = row[positive], column[positive]
+            found.append((active[row], column + start, solved[row, column]))
+        row, column, weight = (np.concatenate(part) for part in zip(*found, strict=True))
+        large = weight >= cut * greatest[row]
+        row, column, weight = row[large], column[large], weight[large]
+        whole = self._solver.solve(np.asarray(self._between.sum(axis=1)).ravel())
+        weight *= (whole / np.maximum(np.bincount(row, weight, len(self._free)), 1e-300))[row]
+        return row, pair_rim[first[self._pieces[row]] + column], weight
