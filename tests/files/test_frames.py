@@ -85,7 +85,7 @@ def test_another_vertex_count(tmp_path, name):
 def test_a_frame_of_a_folder_with_another_vertex_count(tmp_path):
     write_frames(some_frames(3), tmp_path / "take")
     (tmp_path / "take" / "frame_0002.obj").write_text("v 0 0 0\n")
-    with pytest.raises(RetargetError, match="frame_0002.obj has 1 vertices, expected 11 as in frame_0001.obj"):
+    with pytest.raises(RetargetError, match=r"frame_0002.obj has 1 vertices, expected 11 as in frame_0001.obj"):
         read_frames(tmp_path / "take", 11)
 
 
@@ -101,7 +101,7 @@ def test_a_file_that_was_cut_off(tmp_path, name):
 
 def test_no_frames_at_all(tmp_path):
     (tmp_path / "take").mkdir()
-    with pytest.raises(RetargetError, match="holds no .obj files"):
+    with pytest.raises(RetargetError, match=r"holds no .obj files"):
         read_frames(tmp_path / "take", 11)
     write_frames(np.empty((0, 11, 3)), tmp_path / "f.npz")
     with pytest.raises(RetargetError, match=r"\(0, 11, 3\)"):
@@ -109,7 +109,7 @@ def test_no_frames_at_all(tmp_path):
 
 
 def test_another_suffix(tmp_path):
-    with pytest.raises(RetargetError, match="frames .* are a .abc, expected one of .npz, .pc2, .mdd or a folder"):
+    with pytest.raises(RetargetError, match=r"frames .* are a .abc, expected one of .npz, .pc2, .mdd or a folder"):
         read_frames(tmp_path / "f.abc", 3)
     with pytest.raises(RetargetError, match="expected one of"):
         write_frames(some_frames(), tmp_path / "f.abc")

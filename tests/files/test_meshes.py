@@ -110,7 +110,7 @@ def test_uvs_of_corners(tmp_path):
     ],
 )
 def test_an_obj_that_is_wrong(tmp_path, text, expected):
-    with pytest.raises(RetargetError, match="mesh.obj") as error:
+    with pytest.raises(RetargetError, match=r"mesh.obj") as error:
         obj(tmp_path, text)
     assert expected in str(error.value)
 
@@ -181,7 +181,7 @@ def test_ply_of_any_byte_order_with_things_that_nobody_asked_for(tmp_path, order
 )
 def test_an_npz_that_is_wrong(tmp_path, arrays, expected):
     np.savez(tmp_path / "mesh.npz", **arrays)
-    with pytest.raises(RetargetError, match="mesh.npz") as error:
+    with pytest.raises(RetargetError, match=r"mesh.npz") as error:
         read_mesh(tmp_path / "mesh.npz")
     assert expected in str(error.value)
 
@@ -200,9 +200,9 @@ def test_compressed_and_other_number_types(tmp_path):
 
 def test_another_suffix(tmp_path):
     for path in (tmp_path / "mesh.fbx", tmp_path / "mesh"):
-        with pytest.raises(RetargetError, match="expected one of .obj, .ply, .npz"):
+        with pytest.raises(RetargetError, match=r"expected one of .obj, .ply, .npz"):
             read_mesh(path)
-        with pytest.raises(RetargetError, match="expected one of .obj, .ply, .npz"):
+        with pytest.raises(RetargetError, match=r"expected one of .obj, .ply, .npz"):
             write_mesh(dome(3), path)
 
 

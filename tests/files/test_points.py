@@ -79,7 +79,7 @@ def test_a_position_is_snapped_to_the_surface(place):
     ],
 )
 def test_a_place_that_is_wrong(place, text, expected):
-    with pytest.raises(RetargetError, match="points.json") as error:
+    with pytest.raises(RetargetError, match=r"points.json") as error:
         place(text)
     assert expected in str(error.value)
 
