@@ -9,36 +9,46 @@ import numpy as np
 from .arrays import FloatArray, IntArray
 from .closest_point import closest_on_triangles
 from .mesh import TriMesh
+from .placed_points import PlacedPoints
 
 _RIM = 0.02
 """A point whose weight inside a border triangle is below this lies on the border or outside."""
+_UPRIGHT = 0.1
+"""Triangles whose agreement with the surface is above this are fine."""
+_FOLD_COST = 0.1
+"""What a fold counts against distance, in squared mean edges."""
 
 
-def insert_points(faces: IntArray, rows: IntArray, positions: Sequence[FloatArray]) -> IntArray:
+def insert_points(faces: IntArray, rows: IntArray, placed: Sequence[PlacedPoints]) -> IntArray:
     """Triangulation with more of the points as vertices.
 
     Each point splits the triangle that is nearest to it on all faces together; edges are then flipped until
-    the triangulation is intrinsically Delaunay. Boundary loops stay as they are.
+    the triangulation is intrinsically Delaunay, but never so that a triangle folds over. Boundary loops stay.
 
     Parameters
     ----------
     faces : (F, 3) manifold triangulation of some of the P points.
     rows : (K,) points to insert.
-    positions : for each face the points' positions (P, 3), in any unit.
+    placed : the points on each face, in any unit.
 
     Returns
     -------
-    (F + 2 K', 3); points on the border or outside are in no triangle.
+    (F', 3); points on the border or outside are in no triangle.
+
+    References
+    ----------
+    Lawson 1977 (flips).
     """
-    scaled = [p / _mean_edge(p, faces) for p in positions]
+    scaled = [PlacedPoints(p.positions / _mean_edge(p.positions, faces), p.normals) for p in placed]
     for row in rows.tolist():
         weights, gap = _nearest(faces, row, scaled)
-        best = int(np.argmin(gap))
-        if _on_border(faces, best, weights[best]):
-            continue
-        a, b, c = faces[best].tolist()
-        faces = np.concatenate([np.delete(faces, best, axis=0), [[a, b, row], [b, c, row], [c, a, row]]])
-        faces = _flip_around(faces, row, scaled)
+        split = np.stack([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]], axis=1)
+        split = np.concatenate([split, np.full((len(faces), 3, 1), row)], axis=2)
+        upright = _worst(split.reshape(-1, 3), scaled).reshape(-1, 3).min(axis=1)
+        best = int(np.argmin(gap + _FOLD_COST * (upright < _UPRIGHT)))
+        if not _on_border(faces, best, weights[best]):
+            faces = np.concatenate([np.delete(faces, best, axis=0), split[best]])
+            faces = _flip_around(faces, row, scaled)
     return faces
 
 
@@ -46,54 +56,73 @@ def _mean_edge(positions: FloatArray, faces: IntArray) -> float:
     return max(float(TriMesh(positions, faces).edge_lengths.mean()), 1e-300)
 
 
-def _nearest(faces: IntArray, row: int, positions: Sequence[FloatArray]) -> tuple[FloatArray, FloatArray]:
+def _worst(faces: IntArray, placed: Sequence[PlacedPoints]) -> FloatArray:
+    """(F,) least agreement of each triangle on any face."""
+    least: FloatArray = np.min([p.agreement(faces) for p in placed], axis=0)
+    return least
+
+
+def _nearest(faces: IntArray, row: int, placed: Sequence[PlacedPoints]) -> tuple[FloatArray, FloatArray]:
     """Mean weights (F, 3) of the place in each triangle nearest to a point, and the summed squared distance (F,)."""
     weights = np.zeros((len(faces), 3))
     gap = np.zeros(len(faces))
-    for p in positions:
-        corners = p[faces]
-        here = closest_on_triangles(np.broadcast_to(p[row], (len(faces), 3)), corners)
-        weights += here / len(positions)
-        gap += ((np.einsum("fk,fkc->fc", here, corners) - p[row]) ** 2).sum(axis=1)
+    for p in placed:
+        corners, point = p.positions[faces], p.positions[row]
+        here = closest_on_triangles(np.broadcast_to(point, (len(faces), 3)), corners)
+        weights += here / len(placed)
+        gap += ((np.einsum("fk,fkc->fc", here, corners) - point) ** 2).sum(axis=1)
     return weights, gap
 
 
 def _on_border(faces: IntArray, face: int, weights: FloatArray) -> bool:
     """Whether a place touches a boundary edge of its triangle."""
-    corners = faces[face]
     for k in range(3):
-        a, b = corners[k], corners[(k + 1) % 3]
-        shared = ((faces == a).any(axis=1) & (faces == b).any(axis=1)).sum()
-        if shared == 1 and weights[(k + 2) % 3] < _RIM:
+        a, b = faces[face, k], faces[face, (k + 1) % 3]
+        if len(_touching(faces, a, b)) == 1 and weights[(k + 2) % 3] < _RIM:
             return True
     return False
 
 
-def _flip_around(faces: IntArray, row: int, positions: Sequence[FloatArray]) -> IntArray:
+def _touching(faces: IntArray, a: int, b: int) -> IntArray:
+    """Faces at an edge."""
+    return np.flatnonzero((faces == a).any(axis=1) & (faces == b).any(axis=1))
+
+
+def _flip_around(faces: IntArray, row: int, placed: Sequence[PlacedPoints]) -> IntArray:
     """Lawson's flips of the edges opposite to a new vertex, until none of them wants to flip."""
     faces = faces.copy()
-    open_edges = [tuple(np.roll(f, -int(np.flatnonzero(f == row)[0]))[1:].tolist()) for f in faces if row in f]
-    while open_edges:
-        a, b = open_edges.pop()
-        mine = np.flatnonzero((faces == a).any(axis=1) & (faces == b).any(axis=1) & (faces == row).any(axis=1))
-        other = np.flatnonzero((faces == a).any(axis=1) & (faces == b).any(axis=1) & ~(faces == row).any(axis=1))
-        if not len(mine) or not len(other):
+    waiting = [_opposite_edge(face, row) for face in faces if row in face]
+    while waiting:
+        a, b = waiting.pop()
+        sides = _touching(faces, a, b)
+        mine = sides[(faces[sides] == row).any(axis=1)]
+        other = np.setdiff1d(sides, mine)
+        if len(mine) != 1 or len(other) != 1:
             continue
         c = int(faces[other[0]].sum() - a - b)
-        joined = ((faces == row).any(axis=1) & (faces == c).any(axis=1)).any()
-        if joined or not _wants_flip(a, b, row, c, positions):
+        after = np.array([[row, a, c], [row, c, b]])
+        if len(_touching(faces, row, c)) or not _wants_flip(a, b, row, c, after, placed):
             continue
-        faces[mine[0]] = [row, a, c]
-        faces[other[0]] = [row, c, b]
-        open_edges += [(a, c), (c, b)]
+        faces[mine[0]], faces[other[0]] = after
+        waiting += [(a, c), (c, b)]
     return faces
 
 
-def _wants_flip(a: int, b: int, c: int, d: int, positions: Sequence[FloatArray]) -> bool:
-    """Whether the angles opposite to edge ab, at c and d, add up to more than pi on average."""
-    total = sum(_angle(p, c, a, b) + _angle(p, d, a, b) for p in positions)
-    turned = max(max(_angle(p, a, c, b) + _angle(p, a, d, b), _angle(p, b, c, a) + _angle(p, b, d, a)) for p in positions)
-    return total > len(positions) * np.pi * (1 + 1e-9) and turned < np.pi
+def _opposite_edge(face: IntArray, row: int) -> tuple[int, int]:
+    turned = np.roll(face, -int(np.flatnonzero(face == row)[0]))
+    return int(turned[1]), int(turned[2])
+
+
+def _wants_flip(a: int, b: int, c: int, d: int, after: IntArray, placed: Sequence[PlacedPoints]) -> bool:
+    """Whether to replace edge ab by cd: it mends a fold, or the angles opposite to ab add up to more than pi."""
+    old = float(_worst(np.array([[c, a, b], [d, b, a]]), placed).min())
+    new = float(_worst(after, placed).min())
+    if new < _UPRIGHT:
+        return new > old + 1e-9
+    if old < _UPRIGHT:
+        return True
+    angles = sum(_angle(p.positions, c, a, b) + _angle(p.positions, d, a, b) for p in placed)
+    return angles > len(placed) * np.pi * (1 + 1e-9)
 
 
 def _angle(p: FloatArray, at: int, a: int, b: int) -> float:

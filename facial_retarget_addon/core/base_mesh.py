@@ -11,12 +11,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .arrays import FloatArray, IntArray, unit_vectors
+from .arrays import FloatArray, IntArray
 from .base_insertion import insert_points
 from .base_regions import dual_triangulation
 from .base_triangulations import STANDARD
 from .errors import RetargetError
 from .mesh import TriMesh
+from .placed_points import PlacedPoints
 from .points import FeaturePoints, common_names
 
 OUTER = "outer"
@@ -57,23 +58,8 @@ class BaseMesh:
     warnings: tuple[str, ...]
 
 
-@dataclass(frozen=True, eq=False)
-class PointsOnFace:
-    """The common points on one face: positions (P, 3) and unit normals of the surface there (P, 3)."""
-
-    positions: FloatArray
-    normals: FloatArray
-
-    @classmethod
-    def of(cls, mesh: TriMesh, points: FeaturePoints) -> PointsOnFace:
-        """Evaluate points on a mesh."""
-        return cls(points.positions(mesh.vertices), unit_vectors(points.positions(mesh.vertex_normals)))
-
-    def agreement(self, faces: IntArray) -> FloatArray:
-        """(F,) dot product of each triangle's normal and the mean surface normal of its corners."""
-        mean = unit_vectors(self.normals[faces].mean(axis=1))
-        dots: FloatArray = np.einsum("fi,fi->f", TriMesh(self.positions, faces).face_normals, mean)
-        return dots
+MINIMUM_POINTS = 24
+"""Fewer points give no base mesh that follows a face."""
 
 
 def base_mesh(
@@ -99,10 +85,14 @@ def base_mesh(
     """
     names = common_names(source_points, target_points)
     faces_of = [
-        PointsOnFace.of(source_mesh, source_points.subset(names)),
-        PointsOnFace.of(target_mesh, target_points.subset(names)),
+        PlacedPoints.on(source_mesh, source_points.subset(names)),
+        PlacedPoints.on(target_mesh, target_points.subset(names)),
     ]
     left_out: list[str] = []
+    if triangles is None and len(names) < MINIMUM_POINTS:
+        raise RetargetError(
+            f"source and target have {len(names)} feature points in common, expected at least {MINIMUM_POINTS} for a base mesh"
+        )
     if triangles is not None:
         rows = _rows(triangles, names)
         if np.median(faces_of[0].agreement(rows)) < 0:
@@ -114,7 +104,7 @@ def base_mesh(
         else:
             rows = _rows(standard, names)
             extra = np.setdiff1d(np.arange(len(names)), rows)
-            rows = insert_points(rows, extra, [face.positions for face in faces_of])
+            rows = insert_points(rows, extra, faces_of)
         left_out = [names[k] for k in np.setdiff1d(np.arange(len(names)), rows)]
     _check_manifold(rows, names)
     used = np.unique(rows)
@@ -162,7 +152,7 @@ def _check_manifold(faces: IntArray, names: Sequence[str]) -> None:
         raise RetargetError(f"the base mesh hangs together by the point {name} alone: move it or add points beside it")
 
 
-def _folds(face: PointsOnFace, rows: IntArray, names: Sequence[str], which: str) -> list[str]:
+def _folds(face: PlacedPoints, rows: IntArray, names: Sequence[str], which: str) -> list[str]:
     folded = rows[face.agreement(rows) < 0]
     if not len(folded):
         return []

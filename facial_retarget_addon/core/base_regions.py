@@ -29,6 +29,8 @@ _OPEN = 0.1
 """Skin is open where this share of all directions sees it."""
 _RIM = 0.06
 """Pockets are followed inwards this many eye separations: lips and lids roll in."""
+_DOUBLED = 0.9
+"""A point in a pocket is left out if a point on the open skin is nearer than this many rims: a second ring of a lid."""
 _DENSITY = 60
 """Vertices per point that a region needs to have a shape."""
 _DETOUR = 2.0
@@ -148,7 +150,7 @@ def _cut_skin(mesh: TriMesh, points: FeaturePoints) -> _Skin:
     kept &= np.isfinite(depth)
     point_depth = np.asarray(points.matrix(len(mesh.vertices)) @ np.where(np.isfinite(depth), depth, reach))
     behind = _behind_others(point_depth, between, _RIM * separation)
-    kept &= ~np.isin(near.label, behind) | (depth <= _RIM * separation)
+    kept &= ~np.isin(near.label, behind)
     inside = sp.diags(kept.astype(float))
     cut = (inside @ graph @ inside).tocsr()
     cut.eliminate_zeros()
@@ -158,8 +160,11 @@ def _cut_skin(mesh: TriMesh, points: FeaturePoints) -> _Skin:
 def _behind_others(depth: FloatArray, between: FloatArray, rim: float) -> IntArray:
     """Points in a pocket with another point between them and the open skin."""
     nearest = between.argmin(axis=1)
-    hidden: BoolArray = (depth > rim) & (depth[nearest] < depth) & (between[np.arange(len(depth)), nearest] < depth)
-    return np.flatnonzero(hidden)
+    gap = between[np.arange(len(depth)), nearest]
+    deep: BoolArray = (depth > rim) & (depth[nearest] < depth) & (gap < depth)
+    to_open = between[:, depth <= 0].min(axis=1, initial=np.inf)
+    doubled: BoolArray = (depth > 0) & (to_open < _DOUBLED * rim)
+    return np.flatnonzero(deep | doubled)
 
 
 def _openness(mesh: TriMesh, wanted: BoolArray) -> FloatArray:
