@@ -118,7 +118,11 @@ class TriMesh:
         """The same faces on other positions (V, 3)."""
         if np.shape(vertices) != self.vertices.shape:
             raise RetargetError(f"mesh vertices have shape {np.shape(vertices)}, expected {self.vertices.shape}")
-        return TriMesh(vertices, self.faces, self.polygons)
+        moved = TriMesh(vertices, self.faces, self.polygons)
+        # What depends on the faces alone is not worked out again.
+        kept = self.__dict__.keys() & {"half_edges", "_edge_table", "boundary_edges", "boundary_vertices", "components"}
+        moved.__dict__.update({name: self.__dict__[name] for name in kept})
+        return moved
 
     # ---- measures -------------------------------------------------------------------------------
     @cached_property
