@@ -1,0 +1,81 @@
+"""The panel's settings and the job file convert into each other, both ways."""
+
+import sys
+from dataclasses import asdict
+from pathlib import Path
+
+import bpy
+import numpy as np
+from stage import empty_scene, grid, part, refused, wave
+
+folder = Path(sys.argv[1])
+empty_scene()
+bake, examples, points, base_object = (part(f"bridge.{name}") for name in ("bake", "examples", "points", "base_object"))
+jobs, core_points = part("files.job"), part("core.points")
+task = bpy.context.scene.facial_retarget
+task.source, task.target = grid("source"), grid("target", 8)
+for thing, places in ((task.source, [0, 5, 35, 30]), (task.target, [0, 7, 63, 56])):
+    corners, weights = np.repeat(np.array(places)[:, None], 3, axis=1), np.tile([0.7, 0.2, 0.1], (4, 1))
+    points.write_points(thing, core_points.FeaturePoints(("a", "b", "c", "d"), corners, weights))
+    basis = part("bridge.meshes").read_positions(thing.data)
+    for name in ("joy", "a/b"):
+        examples.write_example(thing, name, basis * 1.25)
+task.source.data.uv_layers.new(name="UVMap")
+frames = wave(task.source, 3)
+bake.write_frames(task.source, frames, 21)
+for name in ("joy", "a/b"):
+    task.examples.add().name = name
+triangles = (("a", "b", "c"), ("c", "d", "a"))
+task.base = base_object.show_triangles(task.source, triangles)
+task.use_scene_range, task.frame_start, task.frame_end = False, 21, 23
+settings = task.hierarchical
+settings.levels, settings.variant, settings.read = 3, "paper", "pierce"
+settings.base_gain, settings.detail_scale = 0.7, 1.9
+settings.level_gains[1] = 0.3
+task.output = str(folder / "out.pc2")
+task.report = str(folder / "report.json")
+
+bpy.ops.facial_retarget.save_job(filepath=str(folder / "first.toml"))
+first = jobs.read_job(folder / "first.toml")
+assert first.settings.level_gains == (1.0, 0.3), first.settings
+assert (first.settings.base_gain, first.settings.detail_scale) == (0.7, 1.9), first.settings
+assert first.output == jobs.OutputFiles(folder / "out.pc2", folder / "report.json", None), first.output
+assert [example.name for example in first.examples] == ["joy", "a/b"]
+
+empty_scene()
+bpy.ops.facial_retarget.load_job(filepath=str(folder / "first.toml"))
+task = bpy.context.scene.facial_retarget
+assert base_object.read_base(task.base) == triangles
+assert task.source.data.uv_layers.active is not None
+assert task.target.data.uv_layers.active is None
+read = part("bridge.performance").read_frames(bpy.context, task.source, part("bridge.task").frame_range(bpy.context))
+np.testing.assert_allclose(part("bridge.background").finished(read), frames, atol=2e-7)
+
+bpy.ops.facial_retarget.save_job(filepath=str(folder / "second.toml"))
+second = jobs.read_job(folder / "second.toml")
+assert asdict(second.settings) == asdict(first.settings), (first.settings, second.settings)
+assert (second.method, second.output) == (first.method, first.output)
+assert list(second.inputs()) == list(first.inputs())
+for path, again in zip(first.inputs().values(), second.inputs().values(), strict=True):
+    if path.suffix != ".npz":
+        assert path.read_bytes() == again.read_bytes(), f"{again.name} is not what {path.name} was"
+    else:
+        one, other = np.load(path), np.load(again)
+        assert all(np.allclose(one[name], other[name], atol=2e-7) for name in one.files), path.name
+
+# A bad job leaves the scene as it was.
+text = (folder / "first.toml").read_text()
+for number, (old, new, *words) in enumerate(
+    (
+        ("levels = 3", "levels = 99", "levels", "99"),
+        ("first_source.obj", "missing.obj", "missing.obj"),
+        ("first_example_1_target.npz", "first_example_1_source.npz", "'joy'", "36", "64"),
+        ("first_source_frames.npz", "first_example_1_source.npz", "'frames'"),
+    )
+):
+    assert old in text, old
+    (folder / f"bad{number}.toml").write_text(text.replace(old, new))
+    with refused(*words):
+        bpy.ops.facial_retarget.load_job(filepath=str(folder / f"bad{number}.toml"))
+with refused("no/such"):
+    bpy.ops.facial_retarget.save_job(filepath=str(folder / "no/such/folder/job.toml"))
