@@ -13,7 +13,7 @@ from ..core.arrays import FloatArray, IntArray
 from ..core.errors import RetargetError
 from .npz import read_arrays, write_arrays
 from .obj import read_obj_vertices, write_obj_faces, write_obj_vertices
-from .whole import check_place, written_whole
+from .whole import Aside, check_place, written_whole
 
 BLOCK = 16
 """Frames that are converted at once while writing."""
@@ -61,9 +61,14 @@ def write_frames(frames: FloatArray, path: Path, corners: tuple[IntArray, IntArr
     ------
     RetargetError : for another suffix, or if the system refuses, such as on a full disk.
     """
-    writer = _format(path)[1]
     with written_whole() as aside:
-        writer(aside.place(path, replaces=".obj"), frames, corners)
+        add_frames(aside, frames, path, corners)
+
+
+def add_frames(aside: Aside, frames: FloatArray, path: Path, corners: tuple[IntArray, IntArray] | None = None) -> None:
+    """Write frames among outputs that appear together; the rest as in `write_frames`."""
+    writer = _format(path)[1]
+    writer(aside.place(path, replaces=".obj"), frames, corners)
 
 
 def check_frames_place(path: Path) -> None:

@@ -35,6 +35,7 @@ _LIGHTS: tuple[tuple[tuple[float, float, float], float, tuple[float, float, floa
 """Key, fill and sky: direction in camera axes (right, up, towards the eye), strength, colour."""
 _AMBIENT = 0.10
 _RIM = 0.22
+_WRAP = 0.15
 _DISTANCE = 5.0
 """How far the eye stands from the middle of the frame, in frame radii: a portrait lens."""
 
@@ -210,7 +211,8 @@ def _lit(normals: FloatArray, towards: FloatArray, skin: FloatArray) -> FloatArr
     for direction, strength, tint in _LIGHTS:
         beam = unit_vectors(np.array(direction))
         half = unit_vectors(beam + towards)
-        diffuse += strength * np.clip(normals @ beam, 0.0, None)[:, None] * np.array(tint)
+        # The light wraps a little around the edge, as from a lamp of some size.
+        diffuse += strength * np.clip((normals @ beam + _WRAP) / (1 + _WRAP), 0.0, None)[:, None] * np.array(tint)
         sheen += 0.10 * strength * np.clip(np.einsum("ni,ni->n", normals, half), 0.0, None) ** 24
     grazing = np.clip(1.0 - np.einsum("ni,ni->n", normals, towards), 0.0, 1.0)
     light: FloatArray = skin * (diffuse + _RIM * grazing[:, None] ** 3) + sheen[:, None]

@@ -17,7 +17,7 @@ from ..core.methods.base import Face, Problem
 from ..core.points import FeaturePoints
 from ..core.retarget import retarget
 from .base_mesh import read_base_mesh
-from .frames import check_frames_place, read_frames, write_frames
+from .frames import add_frames, check_frames_place, read_frames
 from .job import FaceFiles, Job, read_job
 from .mesh_file import MeshFile
 from .meshes import read_mesh, read_positions
@@ -77,7 +77,7 @@ def run_job(path: Path, progress: Progress = no_progress) -> dict[str, Any]:
     progress(0.9, "Writing")
     with written_whole() as aside:
         corners = inputs.target.counts, inputs.target.corners
-        write_frames(result.frames, aside.place(job.output.frames, replaces=".obj"), corners)
+        add_frames(aside, result.frames, job.output.frames, corners)
         if job.output.report is not None:
             aside.place(job.output.report).write_bytes(report_json(report))
         if job.output.page is not None:

@@ -18,6 +18,8 @@ class Aside:
 
     def __init__(self) -> None:
         self._pairs: list[tuple[Path, Path]] = []
+        self.busy_with: Path | None = None
+        """The output that is being written, for messages."""
 
     def place(self, path: Path, replaces: str = "") -> Path:
         """A place in the same folder (same file system, same suffix) to write `path` at.
@@ -35,15 +37,18 @@ class Aside:
         check_place(path, replaces)
         aside = path.parent / f".{path.stem}-{secrets.token_hex(4)}-partial{path.suffix}"
         self._pairs.append((aside, path))
+        self.busy_with = path
         return aside
 
     def appear(self) -> None:
         """Put everything in its place: first all of it onto the disk, then the renames."""
-        for aside, _ in self._pairs:
+        for aside, path in self._pairs:
+            self.busy_with = path
             for part in aside.iterdir() if aside.is_dir() else [aside]:
                 _flush(part)
         while self._pairs:
             aside, path = self._pairs[0]
+            self.busy_with = path
             _replace(aside, path)
             del self._pairs[0]
 
@@ -71,7 +76,7 @@ def written_whole() -> Iterator[Aside]:
         yield aside
         aside.appear()
     except OSError as error:
-        raise RetargetError(_refusal(error)) from error
+        raise RetargetError(f"{aside.busy_with or 'the output'} cannot be written: {_reason(error)}") from error
     finally:
         aside.vanish()
 
@@ -92,7 +97,7 @@ def check_place(path: Path, replaces: str = "") -> None:
         if path.is_dir():
             _check_replaceable(path, replaces)
     except OSError as error:
-        raise RetargetError(f"{path} cannot be written: {error.strerror or error}") from error
+        raise RetargetError(f"{path} cannot be written: {_reason(error)}") from error
 
 
 def _check_replaceable(folder: Path, replaces: str) -> None:
@@ -126,7 +131,5 @@ def _replace(aside: Path, path: Path) -> None:
     shutil.rmtree(old, ignore_errors=True)
 
 
-def _refusal(error: OSError) -> str:
-    reason = "the disk is full" if error.errno in (errno.ENOSPC, errno.EDQUOT) else error.strerror or str(error)
-    where = f" ({error.filename})" if error.filename else ""
-    return f"the output cannot be written: {reason}{where}"
+def _reason(error: OSError) -> str:
+    return "the disk is full" if error.errno in (errno.ENOSPC, errno.EDQUOT) else error.strerror or str(error)

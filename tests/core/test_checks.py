@@ -293,7 +293,8 @@ def test_the_shared_faces_have_no_fault(shared_data):
     from facial_retarget_addon.files.points import read_points
 
     faces = {}
-    files = dict(ict="ict_dev", makehuman="makehuman_dev", johnsmith="johnsmith_welded", male_adult_08="male_adult_08")
+    files = {"ict": "ict_dev", "makehuman": "makehuman_dev", "male_adult_08": "male_adult_08"}
+    files["johnsmith"] = "johnsmith_welded"
     for name, file in files.items():
         mesh = read_mesh(shared_data / f"{file}.npz").mesh
         faces[name] = Face(mesh, read_points(shared_data / f"{name}_points.json", mesh))

@@ -317,7 +317,7 @@ def test_a_full_disk(job, listing, capsys, monkeypatch, output):
         return Full(file, mode.replace("b", "")) if "x" in mode else opened(file, mode, *args, **kwargs)
 
     monkeypatch.setattr(builtins, "open", open_full)
-    refused(job, listing, capsys, "the disk is full")
+    refused(job, listing, capsys, f"{output} cannot be written: the disk is full")
 
 
 def test_a_disk_that_is_full_when_the_page_is_written_leaves_no_frames(job, listing, capsys, monkeypatch):
