@@ -91,7 +91,8 @@ def base_mesh(
     left_out: list[str] = []
     if triangles is None and len(names) < MINIMUM_POINTS:
         raise RetargetError(
-            f"source and target have {len(names)} feature points in common, expected at least {MINIMUM_POINTS} for a base mesh"
+            f"source and target have {len(names)} feature points in common, "
+            f"expected at least {MINIMUM_POINTS} for a base mesh"
         )
     if triangles is not None:
         rows = _rows(triangles, names)

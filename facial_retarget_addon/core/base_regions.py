@@ -70,12 +70,12 @@ def dual_triangulation(mesh: TriMesh, points: FeaturePoints) -> IntArray:
     skin = _cut_skin(*_refined(mesh, points))
     label = np.where(skin.kept, nearest_regions(skin.mesh, skin.points, np.inf, skin.graph).label, -1)
     of_face = label[skin.mesh.faces]
-    meets = (of_face >= 0).all(axis=1) & (np.sort(of_face, axis=1)[:, 1:] != np.sort(of_face, axis=1)[:, :-1]).all(axis=1)
-    triangles = of_face[meets]
+    three = (of_face != np.roll(of_face, 1, axis=1)).all(axis=1)
+    triangles = of_face[three & (of_face >= 0).all(axis=1)]
     if not len(triangles):
         raise RetargetError(
-            f"the regions of the {len(points)} feature points do not meet on the surface, expected points spread over the "
-            f"face: move {', '.join(points.names[:4])}"
+            f"the regions of the {len(points)} feature points do not meet on the surface, "
+            f"expected points spread over the face: move {', '.join(points.names[:4])}"
         )
     places = points.positions(mesh.vertices)
     detour = _detour(triangles, places, skin.between)
@@ -93,7 +93,10 @@ def _refined(mesh: TriMesh, points: FeaturePoints) -> tuple[TriMesh, FeaturePoin
 
 
 def eye_separation(mesh: TriMesh, points: FeaturePoints) -> float:
-    """Distance of the eyes' middles; without the eyes' corners, 1.2 times the points' median distance to their middle."""
+    """Distance of the eyes' middles.
+
+    Without the eyes' corners: 1.2 times the points' median distance to their middle.
+    """
     row = {name: k for k, name in enumerate(points.names)}
     places = points.positions(mesh.vertices)
     corners = [row.get(name, -1) for name in ("3.7", "3.11", "3.8", "3.12")]
@@ -137,8 +140,8 @@ def _cut_skin(mesh: TriMesh, points: FeaturePoints) -> _Skin:
     seen = _openness(mesh, near.label >= 0) >= _OPEN
     if not seen.any():
         raise RetargetError(
-            f"no skin around the {len(points)} feature points is seen from outside, expected a surface whose normals point "
-            "outwards"
+            f"no skin around the {len(points)} feature points is seen from outside, "
+            "expected a surface whose normals point outwards"
         )
     depth = dijkstra(graph, directed=False, indices=np.flatnonzero(seen), min_only=True, limit=reach)
     from_points = surface_distances(mesh, points, 2.5 * reach, graph)
@@ -229,7 +232,8 @@ def _next_gap(
     corners = np.array(candidates)
     longest = np.linalg.norm(places[corners] - places[np.roll(corners, -1, axis=1)], axis=2).max(axis=1)
     for k in np.argsort(longest):
-        if _detour(corners[k : k + 1], places, between)[0] < _DETOUR and _on_skin(places[corners[k]], longest[k], finder):
+        direct = _detour(corners[k : k + 1], places, between)[0] < _DETOUR
+        if direct and _on_skin(places[corners[k]], longest[k], finder):
             return np.asarray(corners[k])
         refused.add(tuple(sorted(corners[k].tolist())))
     return None

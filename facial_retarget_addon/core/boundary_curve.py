@@ -8,7 +8,7 @@ from scipy.interpolate import CubicSpline
 from .arrays import FloatArray, IntArray, unit_vectors
 from .closest_point import Nearest, SurfaceFinder
 from .mesh import TriMesh
-from .piercing import closest_agreeing
+from .piercing import closest_agreeing, some_places
 from .surface_path import SurfacePaths, line_length, resample
 
 _SAMPLES = 48
@@ -74,10 +74,10 @@ class BoundaryCurves:
         step = np.linalg.norm(np.diff(near.point[:_SAMPLES], axis=0), axis=1)
         if step.max() > _JUMP * length / (_SAMPLES - 1):
             ends = self._finder.closest(piece[[0, -1]])
-            line, strip = self._paths.path(*(Nearest(*(values[k : k + 1] for values in ends)) for k in (0, 1)))
+            line, strip = self._paths.path(some_places(ends, [0]), some_places(ends, [1]))
             if line_length(line) < _DETOUR * length:
                 return strip.closest(resample(line, share))
-        return Nearest(*(values[_SAMPLES:] for values in near))
+        return some_places(near, np.arange(_SAMPLES, len(every)))
 
 
 def _spline(points: FloatArray) -> list[FloatArray]:

@@ -70,7 +70,7 @@ def nearest_regions(
 
 
 def shortcut_graph(mesh: TriMesh) -> sp.csr_matrix:
-    """(V, V) lengths of the edges, and of the straight steps across them, between the corners of two neighbouring faces.
+    """(V, V) lengths of the edges, and of the straight steps across them from corner to opposite corner.
 
     Paths on it are several times nearer to exact geodesics than edge paths, so that regions get smooth borders.
     """
@@ -113,5 +113,6 @@ def _graph_with_places(
     key, first = np.unique(row * count + corner, return_index=True)
     length = np.maximum(gap[first], 1e-12 * max(mesh.size, 1e-300))
     links = sp.csr_matrix((length, (key // count, key % count)), shape=(places, count))
-    steps = sp.bmat([[mesh.graph if graph is None else graph, None], [links, sp.csr_matrix((places, places))]], format="csr")
+    among = mesh.graph if graph is None else graph
+    steps = sp.bmat([[among, None], [links, sp.csr_matrix((places, places))]], format="csr")
     return steps, np.arange(count, count + places)

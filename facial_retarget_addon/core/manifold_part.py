@@ -54,7 +54,8 @@ def _single_fans(faces: IntArray, vertex_count: int) -> IntArray:
 
 def _largest_piece(faces: IntArray, vertex_count: int) -> IntArray:
     label = _pieces(faces, vertex_count)
-    return faces[label == np.bincount(label).argmax()]
+    largest: IntArray = faces[label == np.bincount(label).argmax()]
+    return largest
 
 
 def _pieces(faces: IntArray, vertex_count: int, through: int | None = None) -> IntArray:

@@ -18,11 +18,11 @@ from .piercing import Pierced, closest_agreeing, outliers, pierce
 from .points import FeaturePoints
 from .raycast import EmbreeCaster, RayCaster
 from .subdivision import Level, boundary_parameters
-from .vertex_neighbours import adjacency, incidence, mean_of_known, rings, spread_inwards
+from .vertex_neighbours import adjacency, edge_lengths_around, incidence, mean_of_known, pick, spread_inwards, widen
 
 _SPREAD_ROUNDS = 6
 _SECOND_LOOKS = 2
-_SOFTNESS = (0, 1, 2, 4, 8, 16)
+_SOFTNESS = (0, 1, 2, 3, 5, 8, 12, 18, 24)
 """Rings over which a second look averages its normal, tried in this order."""
 
 
@@ -229,7 +229,7 @@ class _Builder:
     ) -> tuple[FloatArray, BoolArray]:
         """Offsets (N,) of the first look, and what it missed."""
         inner = np.flatnonzero(places.face < 0)
-        edges = predicted.vertex_edge_length
+        edges = edge_lengths_around(neighbours, predicted.vertices)
         found = pierce(
             self._mesh, self._caster, predicted.vertices[inner], predicted.vertex_normals[inner], edges[inner]
         )
@@ -253,23 +253,26 @@ class _Builder:
         positions[unknown] = fill @ positions
         mesh = TriMesh(positions.copy(), faces)
         touching = incidence(mesh)
-        edges = mesh.vertex_edge_length
+        edges = edge_lengths_around(neighbours, mesh.vertices)
         offsets = np.zeros(len(unknown))
         directions = sp.csr_matrix((len(unknown), len(faces)))
+        rows, done = np.arange(len(unknown)), 0
+        around = pick(unknown, len(positions))
         for softness in _SOFTNESS:
-            rows = np.flatnonzero(failed[unknown])
-            around = rings(neighbours, unknown[rows], softness)
+            around, done = widen(around, neighbours, softness - done), softness
             direction = around @ touching
             normals = unit_vectors(direction @ mesh.face_vectors)
             found = pierce(self._mesh, self._caster, mesh.vertices[unknown[rows]], normals, around @ edges)
             hit = np.flatnonzero(found.face >= 0)
-            offsets[rows[hit]] = found.offset[hit]
-            chosen = sp.csr_matrix((np.ones(len(hit)), (rows[hit], hit)), shape=(len(unknown), len(rows)))
-            directions = directions + chosen @ direction
             vertices = unknown[rows[hit]]
+            offsets[rows[hit]] = found.offset[hit]
+            directions = directions + pick(rows[hit], len(unknown)).T @ direction[hit]
             positions[vertices] += found.offset[hit, None] * normals[hit]
             failed[vertices] = False
             places.put(vertices, found, hit)
+            rows, around = rows[found.face < 0], around[found.face < 0]
+            if not len(rows):
+                break
         return SecondLook(unknown, fill, directions.tocsr(), offsets)
 
     def _fill(

@@ -72,3 +72,8 @@ def closest_agreeing(finder: SurfaceFinder, points: FloatArray, normals: FloatAr
         for mine, other in zip(near, finder.closest(points[lost]), strict=True):
             mine[lost] = other
     return near
+
+
+def some_places(places: Nearest, rows: IntArray | list[int]) -> Nearest:
+    """The places of some rows."""
+    return Nearest(places.distance[rows], places.face[rows], places.weights[rows], places.point[rows])

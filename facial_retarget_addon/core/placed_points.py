@@ -24,7 +24,7 @@ class PlacedPoints:
         return cls(points.positions(mesh.vertices), unit_vectors(points.positions(mesh.vertex_normals)))
 
     def agreement(self, faces: IntArray) -> FloatArray:
-        """(F,) dot product of each triangle's normal and the mean surface normal at its corners: below 0, it folds over."""
+        """(F,) dot product of each triangle's normal and the surface normals at its corners; below 0 it folds over."""
         mean = unit_vectors(self.normals[faces].mean(axis=1))
         dots: FloatArray = np.einsum("fi,fi->f", TriMesh(self.positions, faces).face_normals, mean)
         return dots

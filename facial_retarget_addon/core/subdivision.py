@@ -91,8 +91,8 @@ def split_faces(faces: IntArray, face_edges: IntArray, vertex_count: int) -> Int
     """Each face cut into four at its edges' midpoints, whose vertices are numbered vertex_count + edge; (4 F, 3)."""
     a, b, c = faces.T
     ab, bc, ca = (face_edges + vertex_count).T
-    fine = np.stack([a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca], axis=1)
-    return fine.reshape(-1, 3)
+    fine: IntArray = np.stack([a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca], axis=1).reshape(-1, 3)
+    return fine
 
 
 def boundary_parameters(loops: Sequence[IntArray], steps: Sequence[Level]) -> list[list[tuple[IntArray, FloatArray]]]:
@@ -138,8 +138,8 @@ def _connectivity(faces: IntArray, vertex_count: int) -> TriMesh:
     mesh = TriMesh(np.zeros((vertex_count, 3)), faces)
     if not mesh.is_edge_manifold:
         raise RetargetError(
-            f"a mesh of {vertex_count} vertices and {len(faces)} faces has edges of more than two faces or faces of both "
-            "orientations, expected a manifold, oriented mesh to subdivide"
+            f"a mesh of {vertex_count} vertices and {len(faces)} faces has edges of more than two faces "
+            "or faces of both orientations, expected a manifold, oriented mesh to subdivide"
         )
     return mesh
 

@@ -23,6 +23,15 @@ def incidence(mesh: TriMesh) -> sp.csr_matrix:
     return sp.csr_matrix((np.ones(mesh.faces.size), (mesh.faces.ravel(), faces)), shape=shape)
 
 
+def edge_lengths_around(neighbours: sp.csr_matrix, positions: FloatArray) -> FloatArray:
+    """(V,) mean length of the edges at each vertex; 0 for a vertex without any."""
+    degree = np.diff(neighbours.indptr)
+    row = np.repeat(np.arange(len(degree)), degree)
+    lengths = np.linalg.norm(positions[row] - positions[neighbours.indices], axis=1)
+    mean: FloatArray = np.bincount(row, lengths, len(degree)) / np.maximum(degree, 1)
+    return mean
+
+
 def mean_of_known(neighbours: sp.csr_matrix, unknown: IntArray) -> sp.csr_matrix:
     """Matrix (K, V) that makes K unknown vertices the mean of their neighbours, all at once.
 
@@ -61,17 +70,22 @@ def neighbour_median(neighbours: sp.csr_matrix, values: FloatArray, known: BoolA
     return np.where(number > 0, middle, np.nan)
 
 
-def rings(neighbours: sp.csr_matrix, vertices: IntArray, rounds: int) -> sp.csr_matrix:
-    """(K, V) weights of vertices around each of K vertices after rounds of adding the neighbours; rows add up to 1."""
-    rows = sp.csr_matrix((np.ones(len(vertices)), (np.arange(len(vertices)), vertices)), (len(vertices), neighbours.shape[0]))
+def pick(vertices: IntArray, count: int) -> sp.csr_matrix:
+    """(K, count) matrix that takes K of `count` rows."""
+    entries = (np.ones(len(vertices)), (np.arange(len(vertices)), vertices))
+    return sp.csr_matrix(entries, shape=(len(vertices), count))
+
+
+def widen(weights: sp.csr_matrix, neighbours: sp.csr_matrix, rounds: int) -> sp.csr_matrix:
+    """Weights of vertices (K, V), spread to their neighbours for some rounds; rows add up to 1."""
     for _ in range(rounds):
-        rows = rows + rows @ neighbours
-        rows = sp.diags(1 / np.asarray(rows.sum(axis=1)).ravel()) @ rows
-    return rows.tocsr()
+        weights = weights + weights @ neighbours
+        weights = sp.diags(1 / np.asarray(weights.sum(axis=1)).ravel()) @ weights
+    return weights.tocsr()
 
 
 def spread_inwards(neighbours: sp.csr_matrix, boundary: IntArray, rounds: int) -> sp.csr_matrix:
-    """(V, B) matrix that spreads displacements of boundary vertices over `rounds` rings inside; zero on the boundary."""
+    """(V, B) matrix that spreads displacements of boundary vertices over some rings inside; zero on the boundary."""
     count = neighbours.shape[0]
     degree = np.maximum(np.asarray(neighbours.sum(axis=1)).ravel(), 1)
     degree[boundary] = np.inf
