@@ -303,33 +303,45 @@ def _turn_quads(vertices: FloatArray, quads: IntArray) -> IntArray:
 
 
 def _clip_ears(vertices: FloatArray, ring: IntArray) -> IntArray:
-    """Triangles (n - 2, 3) of one polygon (n,), convex or not."""
+    """Triangles (n - 2, 3) of one polygon (n,), convex or not: the best-shaped ear is cut off until three are left."""
     p = vertices[ring]
     normal = cross(p, np.roll(p, -1, axis=0)).sum(axis=0)
     axis = int(np.argmax(np.abs(normal)))
     u, v = ((1, 2), (2, 0), (0, 1))[axis]
     q = p[:, [u, v]] * (1.0 if normal[axis] >= 0 else -1.0) ** np.array([1, 0])
 
-    def area(a: int, b: int, c: int) -> float:
-        ab, ac = q[b] - q[a], q[c] - q[a]
-        return float(ab[0] * ac[1] - ab[1] * ac[0])
+    def area(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
+        ab, ac = b - a, c - a
+        twice: FloatArray = ab[..., 0] * ac[..., 1] - ab[..., 1] * ac[..., 0]
+        return twice
 
-    left = list(range(len(ring)))
-    triangles: list[list[int]] = []
-    while len(left) > 3:
-        best, best_score = 0, -np.inf
-        for i in range(len(left)):
-            a, b, c = left[i - 1], left[i], left[(i + 1) % len(left)]
-            turn = area(a, b, c)
-            inside = turn > 0 and any(
-                area(a, b, o) >= 0 and area(b, c, o) >= 0 and area(c, a, o) >= 0 for o in left if o not in (a, b, c)
-            )
-            longest = max(float(np.sum((q[s] - q[t]) ** 2)) for s, t in ((a, b), (b, c), (c, a)))
-            score = turn / longest if longest > 0 else 0.0
-            if not inside and score > best_score:
-                best, best_score = i, score
-        triangles.append([left[best - 1], left[best], left[(best + 1) % len(left)]])
-        del left[best]
-    triangles.append(left)
-    clipped: IntArray = ring[np.array(triangles)]
-    return clipped
+    count = len(ring)
+    before, after = np.roll(np.arange(count), 1), np.roll(np.arange(count), -1)
+    left = np.ones(count, bool)
+    score = np.zeros(count)
+    blocked = np.zeros((count, count), bool)  # [ear, corner that lies inside it]
+
+    def look(ear: IntArray) -> None:
+        corners = np.stack([before[ear], ear, after[ear]])
+        a, b, c = q[corners]
+        turn = area(a, b, c)
+        longest = np.max([((s - t) ** 2).sum(axis=1) for s, t in ((a, b), (b, c), (c, a))], axis=0)
+        score[ear] = np.divide(turn, longest, out=np.zeros(len(ear)), where=longest > 0)
+        a, b, c = a[:, None], b[:, None], c[:, None]
+        inside = (area(a, b, q) >= 0) & (area(b, c, q) >= 0) & (area(c, a, q) >= 0) & (turn > 0)[:, None]
+        inside[np.arange(len(ear)), corners] = False
+        blocked[ear] = inside & left
+
+    look(np.arange(count))
+    triangles: list[tuple[int, int, int]] = []
+    for _ in range(count - 3):
+        ear = int(np.argmax(np.where(left, np.where(blocked.any(axis=1), -1e300, score), -np.inf)))
+        one, other = int(before[ear]), int(after[ear])
+        triangles.append((one, ear, other))
+        left[ear] = False
+        blocked[:, ear] = False
+        after[one], before[other] = other, one
+        look(np.array([one, other]))
+    last = int(np.argmax(left))
+    triangles.append((last, int(after[last]), int(before[last])))
+    return ring[np.array(triangles)]

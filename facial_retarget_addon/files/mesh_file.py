@@ -15,6 +15,10 @@ FARTHEST = 1e18
 """No position of a mesh is farther from the origin: its square still fits into float32."""
 
 
+MOST_CORNERS = 2048
+"""Corners of one polygon: cutting it into triangles takes time that grows with the cube of them."""
+
+
 @dataclass(frozen=True, eq=False)
 class MeshFile:
     """A mesh as it stands in a file.
@@ -49,6 +53,9 @@ class MeshFile:
                 f"{path} has {len(bad)} vertices that are NaN, infinite or farther than {FARTHEST:g}, the first is "
                 f"vertex {bad[0]}; expected finite positions"
             )
+        largest = int(counts.max(initial=0))
+        if largest > MOST_CORNERS:
+            raise RetargetError(f"{path} has a polygon with {largest} corners, expected at most {MOST_CORNERS}")
         try:
             mesh = TriMesh.from_polygons(vertices, counts, corners)
         except RetargetError as error:

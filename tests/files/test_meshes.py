@@ -134,6 +134,22 @@ end_header
 """
 
 
+def test_a_hole_that_one_large_polygon_caps(tmp_path):
+    """A star of 300 corners keeps its area, however it is cut."""
+    angle = np.linspace(0, 2 * np.pi, 300, endpoint=False)
+    x, y = (1 + 0.3 * np.sin(9 * angle)) * [np.cos(angle), np.sin(angle)]
+    lines = [f"v {a} {b} 0" for a, b in zip(x, y, strict=True)]
+    star = obj(tmp_path, "\n".join([*lines, "f " + " ".join(str(i + 1) for i in range(300))])).mesh
+    assert len(star.faces) == 298
+    assert (star.face_normals[:, 2] > 0).all()
+    assert star.area == pytest.approx(0.5 * np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)), rel=1e-9)
+
+
+def test_a_polygon_beyond_all_measure(tmp_path):
+    with pytest.raises(RetargetError, match="a polygon with 5000 corners, expected at most 2048"):
+        obj(tmp_path, SQUARE + "f " + " 1 2 3 4" * 1250)
+
+
 @pytest.mark.parametrize("order", ["ascii", "binary_little_endian", "binary_big_endian"])
 def test_ply_of_any_byte_order_with_things_that_nobody_asked_for(tmp_path, order):
     vertices = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1]], float)
