@@ -10,6 +10,7 @@ from .base_mesh import BaseMesh
 from .closest_point import SurfaceFinder
 from .correspondence import Correspondence, places_on_source
 from .mesh import TriMesh
+from .placed_points import PlacedPoints
 from .points import FeaturePoints
 
 _BORDER = 0.08
@@ -40,12 +41,12 @@ def refine_base(
     names = tuple(f"between_{k + 1}" for k in range(len(spread)))
     corners = np.repeat(spread[:, None], 3, axis=1)
     weights = np.tile([1.0, 0.0, 0.0], (len(spread), 1))
-    placed = places_on_source(correspondence, source, target, corners, weights)
-    on_source = on_source.joined(FeaturePoints(names, *placed))
+    matched = places_on_source(correspondence, source, target, corners, weights)
+    on_source = on_source.joined(FeaturePoints(names, *matched))
     on_target = on_target.joined(FeaturePoints(names, corners, weights))
-    positions = [on_source.positions(source.vertices), on_target.positions(target.vertices)]
+    placed = [PlacedPoints.on(source, on_source), PlacedPoints.on(target, on_target)]
     rows = np.arange(len(base.names), len(on_source))
-    faces = insert_points(base.faces, rows, positions)
+    faces = insert_points(base.faces, rows, placed)
     kept = np.unique(faces)
     chosen = [on_source.names[k] for k in kept]
     refined = BaseMesh(tuple(chosen), np.searchsorted(kept, faces), base.loops, base.warnings)

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 import scipy.sparse as sp
 
-from .arrays import FloatArray
+from .arrays import FloatArray, cross
 from .binding import Binding, apply_matrix
 from .example_residuals import spread_matrix
 from .normal_mesh import NormalMesh
@@ -17,7 +17,7 @@ from .source_reader import SourceReader
 Motion = Callable[[FloatArray], FloatArray]
 """Source frames (F, Vs, 3) float32 to target displacements (F, V, 3) float32, in target units."""
 
-_TURN_REACH = 0.35
+_TURN_REACH = 0.45
 """Neighbourhood of a local frame, in eye separations."""
 
 
@@ -114,23 +114,47 @@ def turn(displacements: FloatArray, turns: FloatArray) -> FloatArray:
     return turned
 
 
-def local_turns(source_base: FloatArray, target_base: FloatArray, separation: float, places: FloatArray) -> FloatArray:
-    """(V, 3, 3) rotations from source to target, each of its place's own neighbourhood on the base.
+def local_turns(
+    source_normals: FloatArray,
+    target_normals: FloatArray,
+    base: FloatArray,
+    separation: float,
+    places: FloatArray,
+    rotation: FloatArray,
+) -> FloatArray:
+    """(V, 3, 3) rotations from source to target, each of its place's own neighbourhood.
+
+    The heads' rotation, then the smallest turn that takes the source's surface normals around a place to the
+    target's. Normals are steady where fitted frames of a few points are not.
 
     Parameters
     ----------
-    source_base, target_base : (B, 3) neutral base vertices of both faces.
+    source_normals, target_normals : (B, 3) unit normals of the surfaces at the base vertices.
+    base : (B, 3) neutral base vertices of the target.
     separation : the target's eye separation.
     places : (V, 3) on the target.
+    rotation : (3, 3) from source to target as a whole.
     """
-    squared = np.square(target_base[:, None] - target_base).sum(axis=2)
+    squared = np.square(base[:, None] - base).sum(axis=2)
     near = np.exp(-squared / (2 * (_TURN_REACH * separation) ** 2))
     near /= near.sum(axis=1, keepdims=True)
-    products = np.einsum("ij,jk,jl->ikl", near, target_base, source_base, optimize=True)
-    products -= (near @ target_base)[:, :, None] * (near @ source_base)[:, None, :]
-    rotations = _nearest_rotations(products)
-    spread = spread_matrix(places, target_base, _TURN_REACH * separation)
-    return _nearest_rotations((spread @ rotations.reshape(-1, 9)).reshape(-1, 3, 3))
+    tilts = _smallest_rotations(source_normals @ rotation.T, target_normals)
+    smooth = _nearest_rotations((near @ tilts.reshape(-1, 9)).reshape(-1, 3, 3))
+    spread = spread_matrix(places, base, _TURN_REACH * separation)
+    return _nearest_rotations((spread @ smooth.reshape(-1, 9)).reshape(-1, 3, 3)) @ rotation
+
+
+def _smallest_rotations(before: FloatArray, after: FloatArray) -> FloatArray:
+    """Rotations (V, 3, 3) that take unit vectors (V, 3) to others on the shortest way; none for opposite ones."""
+    axis = cross(before, after)
+    cosine = np.einsum("vi,vi->v", before, after)
+    wedge = np.zeros((len(axis), 3, 3))
+    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+        wedge[:, i, j], wedge[:, j, i] = -axis[:, k], axis[:, k]
+    share = np.where(cosine > -0.99, 1 / np.maximum(1 + cosine, 0.01), 0.0)
+    turned: FloatArray = np.eye(3) + wedge + share[:, None, None] * (wedge @ wedge)
+    turned[cosine <= -0.99] = np.eye(3)
+    return turned
 
 
 def _nearest_rotations(matrices: FloatArray) -> FloatArray:

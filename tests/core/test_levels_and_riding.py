@@ -104,9 +104,19 @@ def test_a_linear_motion_scales_and_turns(rng: np.random.Generator) -> None:
 
 
 def test_local_turns_of_a_turned_face_are_that_turn(rng: np.random.Generator) -> None:
-    base = rng.normal(size=(60, 3))
-    found = local_turns(base, 3 * base @ turned(0.9).T, 3.0, rng.normal(size=(20, 3)))
-    np.testing.assert_allclose(found, np.broadcast_to(turned(0.9), (20, 3, 3)), atol=1e-9)
+    base, places = rng.normal(size=(60, 3)), rng.normal(size=(20, 3))
+    normals = base / np.linalg.norm(base, axis=1, keepdims=True)
+    rotation = turned(0.9)
+    found = local_turns(normals, normals @ rotation.T, base @ rotation.T, 1.0, places, rotation)
+    np.testing.assert_allclose(found, np.broadcast_to(rotation, (20, 3, 3)), atol=1e-9)
+
+
+def test_local_turns_follow_a_surface_that_tilts(rng: np.random.Generator) -> None:
+    base, places = rng.normal(size=(60, 3)), rng.normal(size=(20, 3))
+    tilt = np.array([[1, 0, 0], [0, np.cos(0.5), -np.sin(0.5)], [0, np.sin(0.5), np.cos(0.5)]])
+    forward = np.tile([0, 0, 1.0], (60, 1))
+    found = local_turns(forward, forward @ tilt.T, base, 1.0, places, np.eye(3))
+    np.testing.assert_allclose(found, np.broadcast_to(tilt, (20, 3, 3)), atol=1e-9)
 
 
 def test_a_blend_is_the_ride_inside_and_the_other_motion_outside() -> None:

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import scipy.sparse as sp
 
-from ..arrays import FloatArray, IntArray, Progress, no_progress
+from ..arrays import FloatArray, IntArray, Progress, no_progress, unit_vectors
 from ..base_mesh import BaseMesh, base_mesh
 from ..base_refinement import refine_base
 from ..base_regions import eye_separation
@@ -241,8 +241,7 @@ def _plain(pair: Pair, settings: HierarchicalSettings, binding: Binding) -> tupl
     rest = pair.source.vertices
     turns, fine_turns = None, None
     if settings.frames == "local":
-        turns = local_turns(pair.source_base, pair.target_base, pair.target_separation, pair.target.vertices)
-        fine_turns = local_turns(pair.source_base, pair.target_base, pair.target_separation, pair.finest.positions)
+        turns, fine_turns = _local_turns(pair, pair.target.vertices), _local_turns(pair, pair.finest.positions)
     motion: Motion = LinearMotion(scaled, rest, pair.similarity, turns)
     fine_motion: Motion = LinearMotion(fine, rest, pair.similarity, fine_turns)
     if settings.read == "pierce":
@@ -250,6 +249,15 @@ def _plain(pair: Pair, settings: HierarchicalSettings, binding: Binding) -> tupl
         fine_motion = PiercedMotion(reader, pair.source_normal, gains, pair.similarity, fine_turns)
         motion = BlendedMotion(fine_motion, binding, motion)
     return motion, fine_motion
+
+
+def _local_turns(pair: Pair, places: FloatArray) -> FloatArray:
+    """(V, 3, 3) rotations of the motion at places of the target."""
+    normals = [
+        unit_vectors(points.positions(mesh.vertex_normals))
+        for points, mesh in ((pair.source_points, pair.source), (pair.target_points, pair.target))
+    ]
+    return local_turns(*normals, pair.target_base, pair.target_separation, places, pair.similarity.rotation)
 
 
 def _steering(

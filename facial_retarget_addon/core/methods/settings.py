@@ -32,9 +32,9 @@ class HierarchicalSettings:
         choices=("track", "pierce"),
     )
     frames: str = _setting(
-        "global",
-        "How motion turns: by one similarity of the two heads, or by local frames on the base mesh",
-        choices=("global", "local"),
+        "local",
+        "How motion turns: with the surface around each place, or with the heads as a whole",
+        choices=("local", "global"),
     )
     base_points: int = _setting(
         105,
