@@ -253,11 +253,9 @@ def _plain(pair: Pair, settings: HierarchicalSettings, binding: Binding) -> tupl
 
 def _local_turns(pair: Pair, places: FloatArray) -> FloatArray:
     """(V, 3, 3) rotations of the motion at places of the target."""
-    normals = [
-        unit_vectors(points.positions(mesh.vertex_normals))
-        for points, mesh in ((pair.source_points, pair.source), (pair.target_points, pair.target))
-    ]
-    return local_turns(*normals, pair.target_base, pair.target_separation, places, pair.similarity.rotation)
+    before = unit_vectors(pair.source_points.positions(pair.source.vertex_normals))
+    after = unit_vectors(pair.target_points.positions(pair.target.vertex_normals))
+    return local_turns(before, after, pair.target_base, pair.target_separation, places, pair.similarity.rotation)
 
 
 def _steering(
