@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import math
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
 
 import pytest
@@ -166,3 +167,22 @@ def test_numbers_survive_exactly(job):
     changed = replace(job, settings=HierarchicalSettings(base_gain=math.pi, level_gains=(1e-300, 0.1, 4.0)))
     write_job(changed, job.path)
     assert read_job(job.path) == changed
+
+
+DOCUMENT = Path(__file__).resolve().parents[2] / "docs" / "job_file.md"
+
+
+def test_the_example_in_the_documentation_is_a_job(tmp_path):
+    text = DOCUMENT.read_text(encoding="utf-8")
+    job = read_job(written(tmp_path, text.split("```toml\n")[1].split("```")[0]))
+    assert job.examples[0].name == "joy"
+    assert job.base == tmp_path / "base.json"
+
+
+def test_the_documentation_has_every_setting_with_its_default_and_help():
+    text = DOCUMENT.read_text(encoding="utf-8").split("## Settings")[1]
+    for field in fields(HierarchicalSettings):
+        default = json.dumps(list(field.default) if isinstance(field.default, tuple) else field.default)
+        row = next(line for line in text.splitlines() if line.startswith(f"| `{field.name}` |"))
+        assert f"| `{default}` |" in row
+        assert row.endswith(f"| {field.metadata['help']} |"), "docs/job_file.md is behind the settings"
