@@ -15,7 +15,7 @@ import scipy.sparse as sp
 from scipy.spatial import Delaunay, cKDTree
 
 from ..core.arrays import FloatArray, IntArray
-from .shapes import along
+from .smooth import along, step
 
 
 @dataclass(frozen=True)
@@ -58,11 +58,16 @@ class Lens:
         nearest = np.maximum(*self.distances(places))
         return np.where(beyond > 0, np.hypot(beyond, np.maximum(nearest, 0.0)), nearest)
 
+    def grown(self, width: float) -> Lens:
+        """The opening with `width` added all around."""
+        return Lens(self.x, self.y, self.half_width + width, self.upper + width, self.lower + width)
+
     def side(self, places: FloatArray) -> FloatArray:
         """Which lid or lip a place (N, 2) belongs to: (N,) 1 above, -1 below, turning smoothly beyond the corners."""
         dx, dy = places[:, 0] - self.x, places[:, 1] - self.y
         beyond = np.maximum(np.abs(dx) - self.half_width, 0.0)
-        return dy / np.sqrt(dy**2 + beyond**2 + 1e-12)
+        side: FloatArray = dy / np.sqrt(dy**2 + beyond**2 + 1e-12)
+        return side
 
 
 def _circle(half_width: float, sagitta: float) -> tuple[float, float]:
@@ -116,13 +121,13 @@ class Layout:
         links = _links(self.polygons, len(places))
         near = np.zeros(len(places), bool)
         near[pinned] = True
-        near = links @ (links @ near) > 0
+        near = links @ (links @ (links @ near)) > 0
         near[pinned] = False
         near[np.min([np.abs(lens.distance(places)) for lens in OPENINGS], axis=0) < _ON_RIM] = False
         near[_border(self.polygons)] = False
         rows = np.flatnonzero(near)
         mean = sp.diags(1.0 / links.sum(axis=1).A1) @ links
-        for _ in range(3):
+        for _ in range(10):
             places[rows] = (mean @ places)[rows]
         return places
 
@@ -138,7 +143,8 @@ def _border(polygons: IntArray) -> IntArray:
     """Vertices on edges of one polygon only."""
     edges = np.sort(np.stack([polygons, np.roll(polygons, -1, axis=1)], axis=-1).reshape(-1, 2), axis=1)
     unique, count = np.unique(edges, axis=0, return_counts=True)
-    return np.unique(unique[count == 1])
+    border: IntArray = np.unique(unique[count == 1])
+    return border
 
 
 def ringed_layout(columns: int, rows: int, rings: int) -> Layout:
@@ -194,18 +200,32 @@ def scattered_layout(spacing: float, rng: np.random.Generator) -> Layout:
     grid[border & (column.ravel() == 0), 0] = 0.0
     grid[border & (column.ravel() == count[0]), 0] = 1.0
     places = _rounded(_LOW + grid * (_HIGH - _LOW))
-    rims = [_rim(lens, *(2 * [round(2.4 * lens.half_width / spacing)])) for lens in OPENINGS]
-    clear = np.min([lens.distance(places) for lens in OPENINGS], axis=0) > 0.6 * spacing
-    places = np.concatenate([*rims, places[clear]])
-    on_border = np.concatenate([np.zeros(sum(map(len, rims)), bool), border[clear]])
-    triangles = Delaunay(places).simplices.astype(np.int64)
-    corners = places[triangles]
-    middle = corners.mean(axis=1)
-    area = np.linalg.det(corners[:, 1:] - corners[:, :1])
+    # Two more loops around each rim hold the lids' and lips' edges.
+    loops, openings = [], []
+    for opening, lens in enumerate(OPENINGS):
+        around = round(2.4 * lens.half_width / spacing)
+        for out in (0.0, 0.35 * spacing, 0.9 * spacing):
+            loops.append(_rim(lens.grown(out), around, around))
+            openings.append(np.full(2 * around, -1 if out else opening))
+    clear = np.min([lens.distance(places) for lens in OPENINGS], axis=0) > 1.4 * spacing
+    places = np.concatenate([*loops, places[clear]])
+    opening_of = np.concatenate([*openings, np.full(clear.sum(), -1)])
+    on_border = np.concatenate([np.zeros(sum(map(len, loops)), bool), border[clear]])
+    triangles = Delaunay(_mouth_opened(places)).simplices.astype(np.int64)
+    area = np.linalg.det(places[triangles[:, 1:]] - places[triangles[:, :1]])
     triangles[area < 0] = triangles[area < 0][:, ::-1]
-    outside = np.min([lens.distance(middle) for lens in OPENINGS], axis=0) > 0
+    first, *others = opening_of[triangles].T
+    in_hole = (first >= 0) & np.all([first == other for other in others], axis=0)
     sliver = on_border[triangles].all(axis=1) & (np.abs(area) < 0.02 * spacing**2)
-    return _compact(places, triangles[outside & ~sliver])
+    return _compact(places, triangles[~in_hole & ~sliver])
+
+
+def _mouth_opened(places: FloatArray) -> FloatArray:
+    """Places with the lips moved apart, so that no triangle prefers the other lip to its own."""
+    across = np.clip(1.0 - ((places[:, 0] - MOUTH.x) / MOUTH.half_width) ** 2, 0.0, 1.0) ** 0.75
+    apart = 0.045 * across * MOUTH.side(places) * (1.0 - step(MOUTH.distance(places), 0.0, 0.40))
+    opened: FloatArray = places + apart[:, None] * np.array([0.0, 1.0])
+    return opened
 
 
 def _lines(count: int, axis: int, dense: tuple[float, float]) -> FloatArray:
@@ -213,7 +233,8 @@ def _lines(count: int, axis: int, dense: tuple[float, float]) -> FloatArray:
     fine = np.linspace(_LOW[axis], _HIGH[axis], 2001)
     density = 0.5 + 0.5 * along(fine, *dense, 0.25)
     share = np.concatenate([[0.0], np.cumsum(0.5 * (density[1:] + density[:-1]))])
-    return np.interp(np.linspace(0.0, share[-1], count + 1), share, fine)
+    lines: FloatArray = np.interp(np.linspace(0.0, share[-1], count + 1), share, fine)
+    return lines
 
 
 def _nearest(lines: FloatArray, value: float) -> int:
@@ -225,7 +246,8 @@ def _rounded(places: FloatArray) -> FloatArray:
     middle, half = 0.5 * (_LOW + _HIGH), 0.5 * (_HIGH - _LOW)
     u, v = ((places - middle) / half).T
     corner = (u * v) ** 2
-    return middle + half * np.stack([u * (1.0 - 0.17 * corner), v * (1.0 - 0.14 * corner)], axis=1)
+    drawn: FloatArray = middle + half * np.stack([u * (1.0 - 0.17 * corner), v * (1.0 - 0.14 * corner)], axis=1)
+    return drawn
 
 
 def _block_loop(index: IntArray, left: int, right: int, bottom: int, top: int, middle: int) -> tuple[IntArray, int]:

@@ -11,7 +11,7 @@ from .muscles import contractions
 
 EXPRESSIONS: dict[str, Mapping[str, float]] = {
     "neutral": {},
-    "joy": {"zygomatic": 1.0, "squint": 0.8, "jaw": 0.10, "levator": 0.30, "depressor_labii": 0.30, "frontalis_outer": 0.1},
+    "joy": {"zygomatic": 1.0, "squint": 0.8, "jaw": 0.1, "levator": 0.4, "depressor_labii": 0.15},
     "sadness": {
         "frontalis_inner": 1.0,
         "corrugator": 0.5,

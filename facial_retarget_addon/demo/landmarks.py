@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..core.arrays import FloatArray
 from .chart import LEFT_EYE, MOUTH
 
 _EYE_INNER, _EYE_OUTER = (
@@ -82,10 +81,10 @@ _PAIRED: dict[tuple[str, str], tuple[float, float]] = {
     ("forehead_l_6", "forehead_r_6"): (0.68, 0.74),
     ("cheek_l_1", "cheek_r_1"): (0.40, -0.40),
     ("cheek_l_3", "cheek_r_3"): (0.70, -0.38),
-    ("cheek_l_4", "cheek_r_4"): (0.56, -0.88),
+    ("cheek_l_4", "cheek_r_4"): (0.60, -0.92),
     ("cheek_l_5", "cheek_r_5"): (1.24, -0.30),
     ("cheek_l_6", "cheek_r_6"): (1.26, -0.75),
-    ("fold_l", "fold_r"): (0.40, -0.80),
+    ("fold_l", "fold_r"): (0.40, -0.81),
     ("fold_l_2", "fold_r_2"): (0.55, -1.12),
     ("jaw_l_2", "jaw_r_2"): (0.95, -1.45),
     ("jaw_l_3", "jaw_r_3"): (0.60, -1.62),
@@ -101,8 +100,3 @@ POINTS: dict[str, tuple[float, float]] = {
     **{name: (-place[0], place[1]) for (_, name), place in _PAIRED.items()},
 }
 """Name -> chart place. In a pair the first name lies on the face's left (+x)."""
-
-
-def point_places() -> FloatArray:
-    """(P, 2) chart places of `POINTS`, in their order."""
-    return np.array(list(POINTS.values()))

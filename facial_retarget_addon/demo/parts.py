@@ -19,10 +19,10 @@ _DARK = (0.10, 0.02, 0.02)
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """A mesh of quads: vertices (V, 3), quads (Q, 4), uvs (V, 2), linear colours (V, 3)."""
+    """A mesh: vertices (V, 3), polygons (P, corners of each), uvs (V, 2), linear colours (V, 3)."""
 
     vertices: FloatArray
-    quads: IntArray
+    polygons: IntArray
     uvs: FloatArray
     colours: FloatArray
 
@@ -46,8 +46,12 @@ def _eyeball(sculpture: Sculpture, side: float) -> Part:
     square = np.stack([2 * u - 1, 2 * v - 1], axis=1)
     ring = np.abs(square).max(axis=1)
     round_ = square / np.maximum(np.hypot(*square.T), 1e-9)[:, None]
-    angle = np.radians(95.0) * ring**1.4
-    unit = np.concatenate([np.sin(angle)[:, None] * round_, np.cos(angle)[:, None]], axis=1)
+    angle = np.radians(115.0) * ring**1.4
+    # Beyond the lids the ball goes on as a cone, so that no view past a lid's corner misses it.
+    on_ball, skirt = np.minimum(angle, 1.15), np.maximum(angle - 1.15, 0.0)
+    across = np.sin(on_ball) + skirt * np.cos(on_ball)
+    forward = np.cos(on_ball) - skirt * np.sin(on_ball)
+    unit = np.concatenate([across[:, None] * round_, forward[:, None]], axis=1)
     colours = np.where((angle < 0.385)[:, None], _IRIS, _WHITE)
     colours[angle < 0.165] = _PUPIL
     positions = sculpture.eye_centre(side) + sculpture.eye_radius * unit
@@ -57,18 +61,18 @@ def _eyeball(sculpture: Sculpture, side: float) -> Part:
 
 def _teeth(sculpture: Sculpture) -> Part:
     """The upper row, behind the upper lip."""
-    v, u, quads = _grid(4, 64)
-    x = 0.56 * (u - 0.5)
-    gaps = 1.0 - np.abs(np.sin(10 * np.pi * (u - 0.5))) ** 0.5
+    v, u, quads = _grid(4, 84)
+    x = 0.80 * (u - 0.5)
+    gaps = 1.0 - np.abs(np.sin(14 * np.pi * (u - 0.5))) ** 0.5
     places = np.stack([x, -1.155 + 0.20 * v + 0.02 * gaps * (v < 0.1)], axis=1)
-    depth = 0.075 * sculpture.shape.muzzle - 0.160 - 1.2 * x**2 - 0.05 * v - 0.012 * gaps
+    depth = 0.075 * sculpture.shape.muzzle - 0.160 - 1.7 * x**2 - 0.05 * v - 0.012 * gaps
     return _behind(sculpture, places, depth, 1.0, quads, _TOOTH)
 
 
 def _wall(sculpture: Sculpture) -> Part:
     """The dark at the back of the mouth."""
     v, u, quads = _grid(12, 16)
-    places = np.stack([1.1 * (u - 0.5), -1.66 + 0.90 * v], axis=1)
+    places = np.stack([1.3 * (u - 0.5), -1.66 + 0.90 * v], axis=1)
     depth = -0.42 + 0.38 * (2 * u - 1) ** 4 * np.exp(-(((places[:, 1] - MOUTH.y) / 0.22) ** 2))
     return _behind(sculpture, places, depth, 0.85, quads, _DARK)
 

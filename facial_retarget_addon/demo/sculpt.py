@@ -13,7 +13,7 @@ from scipy.interpolate import CubicSpline
 
 from ..core.arrays import FloatArray, cross, unit_vectors
 from .chart import LEFT_EYE, MOUTH, RIGHT_EYE
-from .shapes import along, bell, blob, pad, roll, smooth_max, sphere, step
+from .smooth import along, bell, blob, cushion, dome, roll, smooth_max, step
 
 # chart y: profile Y and Z without nose and lips, half width, depth of the side, rise of the side
 _PROFILE = np.array(
@@ -59,6 +59,7 @@ class Shape:
     socket: float = 1.0
     cheekbone: float = 1.0
     hollow: float = 1.0
+    temple: float = 1.0
     nose: float = 1.0
     nose_width: float = 1.0
     muzzle: float = 1.0
@@ -89,7 +90,9 @@ class Sculpture:
         """(3,) middle of an eyeball: side 1 for the left, -1 for the right."""
         lens = LEFT_EYE if side > 0 else RIGHT_EYE
         middle = self._sheet(np.array([[lens.x, lens.y]]))[0][0]
-        return self.scale * (middle - np.array([0.0, 0.0, _EYE_DEPTH + _EYE_RADIUS * self.shape.eye]))
+        inwards = np.array([side * 0.012, 0.0, _EYE_DEPTH + _EYE_RADIUS * self.shape.eye])
+        centre: FloatArray = self.scale * (middle - inwards)
+        return centre
 
     @property
     def eye_radius(self) -> float:
@@ -101,12 +104,16 @@ class Sculpture:
         base, outward = self._sheet(places)
         relief = _relief(places, self.shape)
         for side, lens in ((1.0, LEFT_EYE), (-1.0, RIGHT_EYE)):
-            # The lid lies on the eyeball; where the two meet there is a crease.
-            ball = sphere(base, outward, self.eye_centre(side) / self.scale, _EYE_RADIUS * self.shape.eye + _LID)
-            relief = np.where(np.isfinite(ball), smooth_max(relief, np.nan_to_num(ball, neginf=-9.0), 0.040), relief)
-            relief -= 0.045 * roll(lens.distance(places), 0.024)
+            # The lid lies on the eyeball, and where lid and brow meet there is a crease.
+            centre = self.eye_centre(side) / self.scale
+            radius = _EYE_RADIUS * self.shape.eye
+            lid, chord = _ball(base - centre, outward, radius + _LID)
+            lifted = smooth_max(relief, lid, 0.045) - relief
+            relief += step(chord, 0.0, 0.8 * radius) * lifted
+            relief -= 0.050 * roll(lens.distance(places), 0.024)
         positions = base + relief[:, None] * outward
-        positions[:, 1] += _closed_lips(places)
+        rims = self._sheet(np.array([[MOUTH.x, MOUTH.y + MOUTH.upper], [MOUTH.x, MOUTH.y - MOUTH.lower]]))[0]
+        positions[:, 1] += (rims[0, 1] - rims[1, 1]) * _closed_lips(places)
         return self.scale * positions
 
     def sheet(self, places: FloatArray) -> FloatArray:
@@ -121,7 +128,8 @@ class Sculpture:
         """(N, 2, 3) change of the base sheet, relief left out, per chart unit along x and y."""
         steps = 1e-4 * np.eye(2)
         moved = [self._sheet(places + move)[0] - self._sheet(places - move)[0] for move in steps]
-        return self.scale * np.stack(moved, axis=1) / 2e-4
+        tangents: FloatArray = self.scale * np.stack(moved, axis=1) / 2e-4
+        return tangents
 
     def normals(self, places: FloatArray) -> FloatArray:
         """(N, 3) unit normals of the surface, by differences over a hundredth of an eye separation."""
@@ -147,13 +155,20 @@ class Sculpture:
         return base, unit_vectors(outward + under[:, None] * np.array([0.0, -1.6, -0.3]))
 
 
+def _ball(from_centre: FloatArray, outward: FloatArray, radius: float) -> tuple[FloatArray, FloatArray]:
+    """How far (N,) places lie under a ball's front, along `outward`, and half the chord there; 0 where it misses."""
+    forward = np.einsum("ni,ni->n", from_centre, outward)
+    inside = radius**2 - np.einsum("ni,ni->n", from_centre, from_centre) + forward**2
+    chord = np.sqrt(np.maximum(inside, 0.0))
+    return chord - forward, chord
+
+
 def _closed_lips(places: FloatArray) -> FloatArray:
-    """How far (N,) the lips are moved up and down to meet: the chart's mouth is a gap."""
+    """How far (N,) the lips move up and down to meet, in heights of the chart's mouth, which is a gap."""
     above, below = MOUTH.distances(places)
     across = np.clip(1.0 - ((places[:, 0] - MOUTH.x) / MOUTH.half_width) ** 2, 0.0, 1.0)
-    reach = 0.16
-    down, up = (step(d, reach, 0.0) * across for d in (above, below))
-    return np.where(places[:, 1] > MOUTH.y, -0.985 * MOUTH.upper * down, 0.985 * MOUTH.lower * up)
+    down, up = (0.525 * step(d, 0.16, 0.0) * across for d in (above, below))
+    return np.where(places[:, 1] > MOUTH.y, -down, up)
 
 
 def _relief(places: FloatArray, shape: Shape) -> FloatArray:
@@ -165,14 +180,14 @@ def _relief(places: FloatArray, shape: Shape) -> FloatArray:
     h = shape.brow * 0.050 * along(ax, 0.14, 0.86, 0.16) * bell(y - brow_line, 0.10)
     h -= 0.012 * blob(x, y, 0.0, 0.26, 0.08, 0.12)
     h += 0.030 * blob(ax, y, 0.42, 0.62, 0.25, 0.20)
-    h -= 0.045 * blob(ax, y, 1.12, 0.30, 0.20, 0.28)
+    h -= shape.temple * 0.045 * blob(ax, y, 1.12, 0.30, 0.20, 0.28)
     h += shape.cheekbone * 0.070 * blob(ax, y, 0.78, -0.36, 0.28, 0.19, -0.35)
     h += 0.055 * blob(ax, y, 0.55, -0.55, 0.25, 0.25)
     h -= shape.hollow * 0.028 * blob(ax, y, 0.80, -0.98, 0.22, 0.30)
     h += 0.050 * blob(ax, y, 1.12, -1.30, 0.25, 0.25)
     # eye sockets
     h -= shape.socket * 0.160 * blob(ax, y, 0.51, 0.02, 0.235, 0.150)
-    h -= shape.socket * 0.070 * blob(ax, y, 0.25, 0.04, 0.085, 0.12)
+    h -= (0.5 + 0.5 * shape.socket) * 0.165 * blob(ax, y, 0.260, 0.005, 0.115, 0.13)
     h -= 0.020 * blob(ax, y, 0.45, -0.20, 0.18, 0.05, -0.25)
     # mouth and chin
     h += shape.muzzle * 0.075 * blob(x, y, 0.0, -1.03, 0.36, 0.26)
@@ -188,13 +203,13 @@ def _nose(x: FloatArray, ax: FloatArray, y: FloatArray, shape: Shape) -> FloatAr
     x, ax = x / shape.nose_width, ax / shape.nose_width
     ridge = _NOSE_HEIGHT(np.clip(y, -0.80, 0.30))
     width = _NOSE_WIDTH(np.clip(y, -0.80, 0.30))
-    bridge = ridge * np.exp(-((x / width) ** 2))
-    tip = 0.345 * np.exp(-(((x / 0.175) ** 2 + ((y + 0.525) / 0.145) ** 2) ** 1.2))
-    wing = 0.190 * np.exp(-((((ax - 0.185) / 0.120) ** 2 + ((y + 0.585) / 0.112) ** 2) ** 1.5))
-    septum = 0.15 * np.exp(-((x / 0.075) ** 2) - ((y + 0.63) / 0.10) ** 2)
+    bridge = ridge * bell(x, width)
+    tip = 0.345 * dome((x / 0.175) ** 2 + ((y + 0.525) / 0.145) ** 2, 1.2)
+    wing = 0.190 * dome(((ax - 0.185) / 0.120) ** 2 + ((y + 0.585) / 0.112) ** 2, 1.5)
+    septum = 0.15 * blob(x, y, 0.0, -0.63, 0.075, 0.10)
     nose = smooth_max(smooth_max(bridge, tip, 0.06), wing, 0.045)
     nose = smooth_max(nose, septum, 0.03)
-    nostril = 0.075 * blob(ax, y, 0.118, -0.675, 0.048, 0.032, 0.35)
+    nostril = 0.060 * blob(ax, y, 0.118, -0.662, 0.050, 0.030, 0.35)
     crease = 0.022 * blob(ax, y, 0.32, -0.55, 0.05, 0.09)
     return np.asarray(shape.nose * (nose - crease) - nostril)
 
@@ -215,8 +230,8 @@ def _lips(places: FloatArray, x: FloatArray, ax: FloatArray, y: FloatArray, shap
     across = np.clip(1.0 - (x / (MOUTH.half_width + 0.01)) ** 2, 0.0, 1.0)
     upper_height = 0.135 * across**0.7 - 0.016 * bell(x, 0.04) + 0.012
     lower_height = 0.165 * across**0.6 + 0.012
-    upper = 0.085 * across**0.6 * pad(np.maximum(above, 0.0) / upper_height)
-    lower = 0.105 * across**0.6 * pad(np.maximum(below, 0.0) / lower_height)
+    upper = 0.085 * across**0.6 * cushion(np.maximum(above, 0.0) / upper_height)
+    lower = 0.105 * across**0.6 * cushion(np.maximum(below, 0.0) / lower_height)
     h = shape.lips * np.where(y > MOUTH.y, upper, lower)
     h += 0.018 * bell(x, 0.16) * blob(x, y, 0.0, MOUTH.y + 0.075, 1.0, 0.03)
     philtrum = along(-y, 0.74, 0.94, 0.05)

@@ -1,0 +1,87 @@
+"""Contractions to positions: muscles, then lids and wrinkles, then the jaw that carries them all."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from ..core.arrays import FloatArray
+from .chart import LEFT_EYE, MOUTH, RIGHT_EYE
+from .lids import Lids
+from .muscles import ACTIONS, column, fields
+from .sculpt import Sculpture
+from .smooth import bell, step
+from .wrinkles import tension, wrinkle_fields
+
+_JAW_ANGLE = np.radians(21.0)
+"""How far the jaw turns at full contraction."""
+
+
+class Acting:
+    """Material points of a sculpture, ready to act.
+
+    Parameters
+    ----------
+    sculpture : the face.
+    places : (N, 2) chart places of the points.
+    manner : action name without side -> factor on its contraction; an artist's own taste.
+
+    Attributes
+    ----------
+    neutral : (N, 3) positions at rest, in the sculpture's units.
+    """
+
+    def __init__(self, sculpture: Sculpture, places: FloatArray, manner: Mapping[str, float]) -> None:
+        self.neutral = sculpture.surface(places)
+        self._gain = np.array([manner.get(name.removesuffix("_l").removesuffix("_r"), 1.0) for name in ACTIONS])
+        slides, bulges = fields(places)
+        pulls = np.einsum("ank,nkc->anc", slides, sculpture.tangents(places))
+        pulls += sculpture.scale * bulges[..., None] * sculpture.outward(places)
+        folds = sculpture.scale * wrinkle_fields(places)[..., None] * sculpture.normals(places)
+        self._pulls, self._folds = pulls.astype(np.float32), folds.astype(np.float32)
+        self._lids = [Lids(sculpture, lens, side, places) for lens, side in ((LEFT_EYE, "l"), (RIGHT_EYE, "r"))]
+        weight = _jaw_weight(places)
+        self._hanging = np.flatnonzero(weight)
+        self._jaw = weight[self._hanging].astype(np.float32)
+        self._from_joint = (self.neutral[self._hanging] - sculpture.jaw_joint).astype(np.float32)
+
+    def displacements(self, table: FloatArray, wrinkles: float = 1.0) -> FloatArray:
+        """Displacements (F, N, 3) float32 under contractions (F, A); zero, exactly, where nothing contracts.
+
+        Parameters
+        ----------
+        table : as `contractions` makes it.
+        wrinkles : factor on the height of the wrinkles.
+        """
+        table = np.asarray(table, np.float64) * self._gain
+        moved = np.tensordot(table.astype(np.float32), self._pulls, 1)
+        moved += np.tensordot(wrinkles * tension(table).astype(np.float32), self._folds, 1)
+        for lids in self._lids:
+            lids.add(table, moved)
+        self._turn_jaw(table, moved)
+        return moved
+
+    def _turn_jaw(self, table: FloatArray, moved: FloatArray) -> None:
+        """Turn what hangs on the jaw about the axis through its joints; displacements, in place."""
+        angle = (_JAW_ANGLE * table[:, column("jaw"), None]).astype(np.float32) * self._jaw
+        sine, versine = np.sin(angle), 2 * np.sin(0.5 * angle) ** 2
+        y, z = (moved[:, self._hanging, k] + self._from_joint[:, k] for k in (1, 2))
+        moved[:, self._hanging, 1] -= versine * y + sine * z
+        moved[:, self._hanging, 2] += sine * y - versine * z
+
+
+def _jaw_weight(places: FloatArray) -> FloatArray:
+    """How much of the jaw's turn a place takes part in, (N,) from 0 to 1."""
+    x, y = places.T
+    across = np.minimum(np.abs(x - MOUTH.x) / MOUTH.half_width, 1.0)
+    beyond = np.maximum(np.abs(x - MOUTH.x) - MOUTH.half_width, 0.0)
+    # The lips open to an oval: near the corners the lower one stays behind and the upper one follows.
+    corner = 0.42
+    lip = np.where(y > MOUTH.y, corner * across**4, 1.0 - (1.0 - corner) * across**3)
+    near = bell(beyond, 0.30) * bell(np.maximum(MOUTH.distance(places), 0.0), 0.17)
+    cheek = step(y, -0.60, -1.50)
+    lower = 0.5 * (1.0 - MOUTH.side(places))
+    far = cheek + 0.8 * bell(beyond, 0.45) * (lower - cheek)
+    weight = far + near * (lip - far)
+    return np.asarray(weight * (1.0 - step(y, -1.82, -2.36)) * (1.0 - step(np.abs(x), 1.15, 1.60)))
