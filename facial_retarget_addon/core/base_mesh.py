@@ -22,10 +22,11 @@ from .points import FeaturePoints, common_names
 
 OUTER = "outer"
 _OPENINGS = (
-    ("mouth", {"2.2", "2.3", "2.4", "2.5"}),
+    ("mouth", {"2.2", "2.3", "2.4", "2.5", "2.6", "2.7", "2.8", "2.9"}),
     ("left eye", {"3.1", "3.3", "3.7", "3.11"}),
     ("right eye", {"3.2", "3.4", "3.8", "3.12"}),
 )
+"""Points of which an opening's loop holds some."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,6 +167,6 @@ def _loops(positions: FloatArray, faces: IntArray, names: Sequence[str]) -> tupl
     loops = []
     for k, ring in enumerate(found):
         members = {names[i] for i in ring}
-        kind = next((kind for kind, typical in _OPENINGS if typical <= members), "opening")
+        kind = next((kind for kind, typical in _OPENINGS if typical & members), "opening")
         loops.append(BaseLoop(ring, OUTER if k == 0 else kind))
     return tuple(loops)

@@ -46,6 +46,7 @@ _SLIVER = 0.3
 class _Skin(NamedTuple):
     mesh: TriMesh
     points: FeaturePoints
+    chosen: IntArray
     graph: sp.csr_matrix
     kept: BoolArray
     between: FloatArray
@@ -68,10 +69,11 @@ def dual_triangulation(mesh: TriMesh, points: FeaturePoints) -> IntArray:
     Kshirsagar et al. (regions of feature points).
     """
     skin = _cut_skin(*_refined(mesh, points))
-    label = np.where(skin.kept, nearest_regions(skin.mesh, skin.points, np.inf, skin.graph).label, -1)
-    of_face = label[skin.mesh.faces]
+    seeds = skin.points.subset([points.names[k] for k in skin.chosen])
+    label = nearest_regions(skin.mesh, seeds, np.inf, skin.graph).label
+    of_face = np.where(skin.kept & (label >= 0), skin.chosen[label], -1)[skin.mesh.faces]
     three = (of_face != np.roll(of_face, 1, axis=1)).all(axis=1)
-    triangles = of_face[three & (of_face >= 0).all(axis=1)]
+    triangles = _net_triangles(of_face[three & (of_face >= 0).all(axis=1)])
     if not len(triangles):
         raise RetargetError(
             f"the regions of the {len(points)} feature points do not meet on the surface, "
@@ -82,6 +84,19 @@ def dual_triangulation(mesh: TriMesh, points: FeaturePoints) -> IntArray:
     triangles, detour = triangles[detour < _DETOUR], detour[detour < _DETOUR]
     triangles = manifold_part(triangles, detour, len(points))
     return _close_gaps(triangles, places, skin)
+
+
+def _net_triangles(corners: IntArray) -> IntArray:
+    """Each triple of regions once, the way round in which it is met more often; dropped where both are as many.
+
+    Two regions whose common border is broken meet a third one several times, both ways round.
+    """
+    turned = np.take_along_axis(corners, (corners.argmin(axis=1)[:, None] + np.arange(3)) % 3, axis=1)
+    forward = turned[:, 1] < turned[:, 2]
+    triple, index = np.unique(np.sort(corners, axis=1), axis=0, return_inverse=True)
+    net = np.bincount(index.ravel(), np.where(forward, 1, -1), len(triple))
+    triangles: IntArray = np.where(net[:, None] > 0, triple, triple[:, [0, 2, 1]])[net != 0]
+    return triangles
 
 
 def _refined(mesh: TriMesh, points: FeaturePoints) -> tuple[TriMesh, FeaturePoints]:
@@ -153,11 +168,11 @@ def _cut_skin(mesh: TriMesh, points: FeaturePoints) -> _Skin:
     kept &= np.isfinite(depth)
     point_depth = np.asarray(points.matrix(len(mesh.vertices)) @ np.where(np.isfinite(depth), depth, reach))
     behind = _behind_others(point_depth, between, _RIM * separation)
-    kept &= ~np.isin(near.label, behind)
+    kept &= seen | ~np.isin(near.label, behind)
     inside = sp.diags(kept.astype(float))
     cut = (inside @ graph @ inside).tocsr()
     cut.eliminate_zeros()
-    return _Skin(mesh, points, cut, kept, between)
+    return _Skin(mesh, points, np.setdiff1d(np.arange(len(points)), behind), cut, kept, between)
 
 
 def _behind_others(depth: FloatArray, between: FloatArray, rim: float) -> IntArray:
