@@ -73,7 +73,7 @@ def warnings(problem: Problem, frames: FloatArray | None, settings: Settings) ->
             found.append(f"points that only the {side} has are not used: {_listed(single)}")
     for name, other in _same_examples(problem.target):
         found.append(f"examples {name!r} and {other!r} are identical on the target")
-    if frames is not None and _motion(problem.source, frames) < STILL * problem.source.mesh.size:
+    if frames is not None and not _moves(problem.source, frames):
         found.append("the source does not move: all its frames are the neutral face")
     return found
 
@@ -234,7 +234,7 @@ def _example_faults(problem: Problem) -> list[str]:
     found += [
         f"example {name!r} does not move the source: it is the neutral face"
         for name, positions in source.examples.items()
-        if name != NEUTRAL and _motion(source, positions[None]) < STILL * source.mesh.size
+        if name != NEUTRAL and not _moves(source, positions[None])
     ]
     return found
 
@@ -286,10 +286,10 @@ def _frame_faults(source: Face, frames: FloatArray) -> list[str]:
     return []
 
 
-def _motion(face: Face, frames: FloatArray) -> float:
-    """The largest coordinate of a displacement in frames (F, V, 3)."""
+def _moves(face: Face, frames: FloatArray) -> bool:
+    """Whether any vertex leaves its neutral place in frames (F, V, 3)."""
     blocks = (frames[start : start + _BLOCK] for start in range(0, len(frames), _BLOCK))
-    return max((float(np.abs(block - face.mesh.vertices).max(initial=0.0)) for block in blocks), default=0.0)
+    return any(np.abs(block - face.mesh.vertices).max(initial=0.0) > STILL * face.mesh.size for block in blocks)
 
 
 def _moves_rigidly(source: Face, frames: FloatArray) -> bool:
