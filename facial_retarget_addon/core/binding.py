@@ -7,13 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from .arrays import FloatArray, IntArray, cross, unit_vectors
+from .arrays import BoolArray, FloatArray, IntArray, cross, unit_vectors
 from .closest_point import SurfaceFinder
 from .mesh import TriMesh
 from .points import place_matrix
 
 _AGREEMENT = 0.0
-"""A vertex is bound to a place whose normal is at most a right angle away from its own, if there is one."""
+"""A vertex is bound to a place whose normal is at most a right angle away from its own."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,31 +44,34 @@ class Binding:
         return moved
 
 
-def bind(vertices: FloatArray, normals: FloatArray, carrier: TriMesh, reach: float) -> Binding:
-    """Bind vertices to the closest places of a carrier whose normals agree.
+def bind(mesh: TriMesh, riders: BoolArray, carrier: TriMesh, reach: float) -> Binding:
+    """Bind a mesh's vertices to the closest places of a carrier whose normals agree.
 
     Parameters
     ----------
-    vertices, normals : (V, 3) positions and unit normals.
+    mesh : the mesh that rides.
+    riders : (V,) which of its vertices may.
     carrier : the mesh to ride on.
     reach : distance from the carrier, beyond its border, at which a vertex no longer follows it.
     """
-    finder = SurfaceFinder(carrier)
-    near = finder.closest(vertices, normals, _AGREEMENT)
-    lost = np.flatnonzero(near.face < 0)
-    if len(lost):
-        for mine, other in zip(near, finder.closest(vertices[lost]), strict=True):
-            mine[lost] = other
-    corners = carrier.faces[near.face]
-    frame = _frames(carrier.vertices[None], corners)[0]
-    gap = vertices - near.point
-    offset = np.einsum("vij,vj->vi", frame, gap)
-    sideways = np.linalg.norm(gap - frame[:, 2] * offset[:, 2:], axis=1)
-    beyond = np.maximum(sideways, np.maximum(near.distance - 0.5 * reach, 0))
-    beyond[lost] = np.inf
+    count = len(mesh.vertices)
+    asked = np.flatnonzero(riders)
+    places = SurfaceFinder(carrier).closest(
+        mesh.vertices[asked], mesh.vertex_normals[asked], _AGREEMENT, limit=1.5 * reach
+    )
+    found = places.face >= 0
+    bound = asked[found]
+    corners = np.zeros((count, 3), np.int64)
+    weights, offset, inside = np.zeros((count, 3)), np.zeros((count, 3)), np.zeros(count)
+    corners[bound], weights[bound] = carrier.faces[places.face[found]], places.weights[found]
+    frame = _frames(carrier.vertices[None], corners[bound])[0]
+    gap = mesh.vertices[bound] - places.point[found]
+    offset[bound] = np.einsum("vij,vj->vi", frame, gap)
+    sideways = np.linalg.norm(gap - frame[:, 2] * offset[bound, 2:], axis=1)
+    beyond = np.maximum(sideways, np.maximum(places.distance[found] - 0.5 * reach, 0))
     step = np.clip(1 - beyond / reach, 0, 1)
-    matrix = place_matrix(corners, near.weights, len(carrier.vertices)).astype(np.float32)
-    inside = step * step * (3 - 2 * step)
+    inside[bound] = step * step * (3 - 2 * step)
+    matrix = place_matrix(corners, weights, len(carrier.vertices)).astype(np.float32)
     return Binding(matrix, corners, offset.astype(np.float32), inside, carrier.vertices.astype(np.float32))
 
 

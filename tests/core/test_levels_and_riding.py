@@ -67,27 +67,44 @@ class TestLevels:
         np.testing.assert_allclose(scaled.toarray(), 2 * parts[0].toarray())
 
 
+def flakes(places: np.ndarray, up: float = 1.0) -> TriMesh:
+    """A tiny triangle at each place, facing +z, or -z for `up` -1: vertex 3 i is place i."""
+    corners = places[:, None] + 1e-3 * np.array([[0, 0, 0], [1, 0, 0], [0, up, 0]])
+    return TriMesh(corners.reshape(-1, 3), np.arange(3 * len(places)).reshape(-1, 3))
+
+
+def everyone(mesh: TriMesh) -> np.ndarray:
+    return np.ones(len(mesh.vertices), bool)
+
+
 class TestBinding:
     """Vertices around a flat carrier."""
 
     def test_vertices_follow_an_affine_carrier(self, rng: np.random.Generator) -> None:
         carrier = sheet(6)
-        vertices = np.concatenate([rng.uniform(-0.9, 0.9, (30, 2)), rng.uniform(-0.02, 0.02, (30, 1))], axis=1)
-        bound = bind(vertices, np.tile([0, 0, 1.0], (30, 1)), carrier, 0.5)
+        places = np.concatenate([rng.uniform(-0.9, 0.9, (30, 2)), rng.uniform(-0.02, 0.02, (30, 1))], axis=1)
+        mesh = flakes(places)
+        bound = bind(mesh, everyone(mesh), carrier, 0.5)
         rotation = turned(0.7)
         moved = bound.displacements((carrier.vertices @ rotation.T - carrier.vertices)[None].astype(np.float32))
-        np.testing.assert_allclose(moved[0], vertices @ rotation.T - vertices, atol=1e-5)
+        np.testing.assert_allclose(moved[0], mesh.vertices @ rotation.T - mesh.vertices, atol=1e-5)
 
     def test_inside_is_one_and_fades_beyond_the_border(self) -> None:
         places = np.array([[0, 0, 0.01], [1.2, 0, 0], [1.6, 0, 0]])
-        inside = bind(places, np.tile([0, 0, 1.0], (3, 1)), sheet(6), 0.5).inside
+        mesh = flakes(places)
+        inside = bind(mesh, everyone(mesh), sheet(6), 0.5).inside[::3]
         assert inside[0] == 1
         assert 0 < inside[1] < 1
         assert inside[2] == 0
 
     def test_the_other_side_is_not_ridden_on(self) -> None:
-        bound = bind(np.array([[0, 0, -0.01]]), np.array([[0, 0, -1.0]]), sheet(6), 0.5)
-        assert bound.inside[0] == 0
+        mesh = flakes(np.array([[0, 0, -0.01]]), up=-1.0)
+        assert not bind(mesh, everyone(mesh), sheet(6), 0.5).inside.any()
+
+    def test_who_may_not_ride_does_not(self) -> None:
+        mesh = flakes(np.array([[0, 0, 0.01], [0.5, 0, 0.01]]))
+        inside = bind(mesh, np.arange(6) < 3, sheet(6), 0.5).inside
+        assert inside.tolist() == [1, 1, 1, 0, 0, 0]
 
 
 def test_apply_matrix_works_on_every_frame(rng: np.random.Generator) -> None:
@@ -122,13 +139,16 @@ def test_local_turns_follow_a_surface_that_tilts(rng: np.random.Generator) -> No
 def test_a_blend_is_the_ride_inside_and_the_other_motion_outside() -> None:
     carrier = sheet(6)
     places = np.array([[0, 0, 0.0], [3, 0, 0]])
-    bound = bind(places, np.tile([0, 0, 1.0], (2, 1)), carrier, 0.5)
+    mesh = flakes(places)
+    bound = bind(mesh, everyone(mesh), carrier, 0.5)
     blend = BlendedMotion(
         lambda frames: np.ones((len(frames), 36, 3), np.float32),
         bound,
-        lambda frames: np.full((len(frames), 2, 3), 5, np.float32),
+        lambda frames: np.full((len(frames), 6, 3), 5, np.float32),
     )
-    np.testing.assert_allclose(blend(np.zeros((1, 1, 3))), [[[1, 1, 1], [5, 5, 5]]], atol=1e-6)
+    blended = blend(np.zeros((1, 1, 3)))[0]
+    np.testing.assert_allclose(blended[:3], 1, atol=1e-6)
+    np.testing.assert_allclose(blended[3:], 5, atol=1e-6)
 
 
 class TestQuality:

@@ -146,8 +146,8 @@ def fit(problem: Problem, settings: HierarchicalSettings, progress: Progress = n
     examples = read_examples(problem, pair)
     progress(0.8, "preparing the motion")
     binding = bind(
-        pair.target.vertices,
-        pair.target.vertex_normals,
+        pair.target,
+        pair.correspondence.face >= 0,
         TriMesh(pair.finest.positions, pair.finest.faces),
         _REACH * pair.target_separation,
     )
