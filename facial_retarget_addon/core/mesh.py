@@ -150,7 +150,7 @@ class TriMesh:
     @cached_property
     def vertex_areas(self) -> FloatArray:
         """(V,) a third of the area of the faces around each vertex."""
-        return np.bincount(self.faces.ravel(), np.repeat(self.face_areas / 3, 3), len(self.vertices))
+        return np.bincount(self.faces.ravel(), np.repeat(self.face_areas / 3, 3), len(self.vertices)).astype(np.float64)
 
     @cached_property
     def area(self) -> float:
