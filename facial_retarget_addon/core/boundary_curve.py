@@ -15,7 +15,9 @@ _SAMPLES = 48
 _SHARP = np.radians(75)
 """A loop that turns by more than this at a point has a corner there (corners of mouth and eyes)."""
 _ON_BORDER = 0.25
-"""A loop lies on a boundary of the mesh if its points are nearer to it than this share of their spacing."""
+"""A point lies on a boundary of the mesh if it is nearer to it than this share of the points' spacing."""
+_MOST = 0.75
+"""Two neighbours on a boundary of the mesh are joined along it if that is less than this share of its way round."""
 _JUMP = 4.0
 """A projected curve whose step is this many times longer than the mean step has left its side of the lip."""
 _DETOUR = 2.0
@@ -25,7 +27,7 @@ _DETOUR = 2.0
 class BoundaryCurves:
     """Places on one face along closed loops of feature points.
 
-    Where the mesh has a boundary loop through the points, the places lie on it. Elsewhere they lie on a spline
+    Where two neighbours lie on a boundary of the mesh, the places between lie on it. Elsewhere they lie on a spline
     through the points, moved to the closest place of the surface whose normal agrees with the points' normals, so
     that closed lips stay apart; and where that would jump from one lip to the other, on the shortest path along the
     surface. Equal parameters on two faces are the same place of lip or lid.
@@ -44,9 +46,9 @@ class BoundaryCurves:
         normals : (n, 3) unit surface normals there.
         parameters : (m,) in [0, n): k is point k, the fraction is a share of the arc length to the next point.
         """
-        border = _mesh_border(self._mesh, points)
-        pieces = border if border is not None else _spline(points)
         count = len(points)
+        borders = self._mesh_borders(points)
+        splines = _spline(points)
         found = Nearest(
             np.zeros(len(parameters)),
             np.zeros(len(parameters), np.int64),
@@ -54,16 +56,28 @@ class BoundaryCurves:
             np.zeros((len(parameters), 3)),
         )
         first = np.floor(parameters).astype(np.int64) % count
-        for k, piece in enumerate(pieces):
+        for k, (border, spline) in enumerate(zip(borders, splines, strict=True)):
             mine = np.flatnonzero(first == k)
             share = np.mod(parameters[mine], 1.0)
             if border is not None:
-                near = self._finder.closest(resample(piece, share))
+                near = self._finder.closest(resample(border, share))
             else:
-                near = self._on_surface(piece, normals[k], normals[(k + 1) % count], share)
+                near = self._on_surface(spline, normals[k], normals[(k + 1) % count], share)
             for whole, part in zip(found, near, strict=True):
                 whole[mine] = part
         return found
+
+    def _mesh_borders(self, points: FloatArray) -> list[FloatArray | None]:
+        """For each point the mesh's boundary from there to the next point, None where they do not lie on one."""
+        spacing = float(np.linalg.norm(points - np.roll(points, -1, axis=0), axis=1).mean())
+        pieces: list[FloatArray | None] = [None] * len(points)
+        for ring in self._mesh.boundary_loops:
+            place, gap = _project(self._mesh.vertices[ring], points)
+            near = gap < _ON_BORDER * spacing
+            ahead = np.mod(np.roll(place, -1) - place, len(ring))
+            for k in np.flatnonzero(near & np.roll(near, -1) & (ahead > 0) & (ahead < _MOST * len(ring))):
+                pieces[k] = _stretch(self._mesh.vertices[ring], place[k], place[k] + ahead[k])
+        return pieces
 
     def _on_surface(self, piece: FloatArray, start: FloatArray, stop: FloatArray, share: FloatArray) -> Nearest:
         """Places at shares of one piece between two points with normals `start` and `stop`."""
@@ -101,21 +115,6 @@ def _fill_pieces(points: FloatArray, arc: IntArray, ends: str, pieces: list[Floa
     spline = CubicSpline(knots, through, bc_type=ends)
     for k in range(len(arc) - 1):
         pieces[arc[k]] = spline(np.linspace(knots[k], knots[k + 1], _SAMPLES))
-
-
-def _mesh_border(mesh: TriMesh, points: FloatArray) -> list[FloatArray] | None:
-    """The pieces of the mesh's boundary loop between points, if one passes all of them in their order."""
-    spacing = float(np.linalg.norm(points - np.roll(points, -1, axis=0), axis=1).mean())
-    for ring in mesh.boundary_loops:
-        corners = mesh.vertices[ring]
-        place, gap = _project(corners, points)
-        if gap.max() > _ON_BORDER * spacing:
-            continue
-        ahead = np.mod(np.roll(place, -1) - place, len(ring))
-        if not np.isclose(ahead.sum(), len(ring)) or (ahead <= 0).any():
-            continue
-        return [_stretch(corners, start, start + step) for start, step in zip(place, ahead, strict=True)]
-    return None
 
 
 def _project(corners: FloatArray, points: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -111,7 +111,7 @@ def boundary_parameters(loops: Sequence[IntArray], steps: Sequence[Level]) -> li
     count = steps[0].matrix.shape[1] if steps else 0
     owner = np.full(count, -1, np.int64)
     parameter = np.zeros(count)
-    size = np.array([len(ring) for ring in loops], np.float64)
+    size = np.array([*(len(ring) for ring in loops), 1], np.float64)
     for k, ring in enumerate(loops):
         owner[ring] = k
         parameter[ring] = np.arange(len(ring))
