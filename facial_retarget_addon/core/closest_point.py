@@ -125,7 +125,8 @@ class _Pieces:
         piece, face = corners[faces], faces
         radius = _radius(piece)
         largest = 1.5 * np.median(radius)
-        done_piece, done_face = [], []
+        done_piece: list[FloatArray] = []
+        done_face: list[IntArray] = []
         while len(piece):
             # Cutting more than some 2^7 pieces from one triangle costs more than a wide search.
             large = (radius > largest) & (len(done_piece) < 7)

@@ -44,20 +44,18 @@ def spread_nodes(mesh: TriMesh, spacing: FloatArray, candidates: IntArray, first
     Gonzalez 1985 (farthest-first traversal).
     """
     # Normals count as well, so that surfaces that touch, such as two lips, get nodes on both sides.
-    unit = 1 / spacing[candidates]
+    unit = 1 / spacing[candidates] ** 2
     place = np.concatenate([mesh.vertices, 0.5 * np.median(spacing) * mesh.vertex_normals], axis=1)[candidates]
-    place = np.ascontiguousarray(place.T)
+    place -= place.mean(axis=0)
+    square = np.einsum("vc,vc->v", place, place)
     row = {int(v): i for i, v in enumerate(candidates)}
     chosen = list(dict.fromkeys(row[int(v)] for v in first))
     nearest = np.full(len(candidates), np.inf)
-    step = np.empty_like(place)
     for k in range(min(count, len(candidates))):
         if k == len(chosen):
             chosen.append(int(np.argmax(nearest * unit)))
-        np.subtract(place, place[:, chosen[k], None], out=step)
-        np.minimum(nearest, np.sqrt(np.einsum("cv,cv->v", step, step)), out=nearest)
-        if nearest.max() <= 0:
-            break
+        np.minimum(nearest, square + (square[chosen[k]] - 2 * (place @ place[chosen[k]])), out=nearest)
+        nearest[chosen[k]] = -np.inf
     result: IntArray = candidates[np.array(chosen, np.int64)]
     return result
 
@@ -112,13 +110,15 @@ def _least_squares_weights(
     kernel = np.where(valid, np.maximum(1 - radius, 1e-6 * valid) ** 2 * (1 + 2 * radius), 0.0)
     if leave_out:
         kernel = np.where(near == label[:, None], 0.0, kernel)
-    scale = reach[label][:, None, None]
-    basis = np.concatenate([np.ones((*near.shape, 1)), offset / scale], axis=2)
-    moment = np.einsum("nk,nki,nkj->nij", kernel, basis, basis)
+    basis = [np.ones_like(kernel), *(offset / reach[label][:, None, None]).transpose(2, 0, 1)]
+    moment = np.empty((len(points), 4, 4))
+    for i in range(4):
+        for j in range(i + 1):
+            moment[:, i, j] = moment[:, j, i] = np.einsum("nk,nk,nk->n", kernel, basis[i], basis[j])
     # A surface is flat where nodes are dense: the ridge leaves its normal direction alone.
     moment[:, [1, 2, 3], [1, 2, 3]] += 1e-2 * moment[:, 0, 0, None]
     first = np.linalg.solve(moment, np.broadcast_to(np.eye(4)[:, :1], (len(points), 4, 1)))[..., 0]
-    weight = kernel * np.einsum("nki,ni->nk", basis, first)
+    weight = kernel * sum(first[:, i, None] * basis[i] for i in range(4))
     weight /= weight.sum(axis=1, keepdims=True)
     row = np.repeat(np.arange(len(points)), width)
     keep = weight.ravel() != 0

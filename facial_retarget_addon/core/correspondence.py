@@ -6,14 +6,16 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
+from scipy.spatial.distance import cdist
 
 from .arrays import BoolArray, FloatArray, IntArray, Progress, no_progress
-from .closest_point import SurfaceFinder
+from .closest_point import Nearest, SurfaceFinder
 from .errors import RetargetError
-from .map_repair import believable, wrong_side
+from .map_repair import believable
 from .mesh import TriMesh
 from .points import FeaturePoints, common_names, place_matrix
 from .rigid import fit_similarity
+from .sides import Sides
 from .smooth_warp import fit_smooth_warp
 from .surface_fill import HarmonicFill
 from .surface_fit import fit_surface
@@ -87,44 +89,35 @@ def correspond(
     source_points, target_points = source_points.subset(names), target_points.subset(names)
     source_face = _face_component(source, source_points, "source")
     target_face = _face_component(target, target_points, "target")
+    for what, points, mesh in (("source", source_points, source), ("target", target_points, target)):
+        _refuse_twins(points, len(mesh.vertices), what)
     there = source_points.positions(source.vertices)
     here = target_points.positions(target.vertices)
     extent = float(np.linalg.norm(there - there.mean(axis=0), axis=1).max())
+    finder = SurfaceFinder(source, np.flatnonzero(source_face[source.faces[:, 0]]))
+    active = np.flatnonzero(target_face)
     progress(0.0, "warping the target onto the source")
     similarity = fit_similarity(here, there)
     warp = fit_smooth_warp(similarity.apply(here), there, _STIFFNESS)
     warped = target.with_vertices(warp.apply(similarity.apply(target.vertices)))
-    finder = SurfaceFinder(source, np.flatnonzero(source_face[source.faces[:, 0]]))
-    active = np.flatnonzero(target_face)
     progress(0.1, "bending the target onto the source")
     held = target_points.matrix(len(target.vertices))
     bent = target.with_vertices(fit_surface(warped, active, held, there, finder, extent))
     progress(0.6, "finding the places of the target's vertices on the source")
-    found = finder.closest(bent.vertices[active], bent.vertex_normals[active], _AGREEMENT, _REACH * extent)
-    lost = found.face < 0
-    guess = finder.closest(bent.vertices[active[lost]])
-    face = np.full(len(target.vertices), -1, np.int64)
-    weights = np.zeros((len(target.vertices), 3))
-    distance = np.full(len(target.vertices), np.inf)
-    face[active], weights[active], distance[active] = found.face, found.weights, found.distance
-    face[active[lost]], weights[active[lost]], distance[active[lost]] = guess.face, guess.weights, guess.distance
-    sure = target_face.copy()
-    sure[active[lost]] = False
+    found, agrees = _places(finder, bent, active, extent)
     progress(0.8, "mending the map")
-    past_border = _on_border(source, face, weights) & (distance > 0.05 * extent)
-    decay = np.where(past_border | (distance > _REACH * extent), 1.0, 0.0)
-    decay *= target.vertex_edge_length / (_DECAY * extent / similarity.scale) ** 2
-    place_vertices = source.faces[face, weights.argmax(axis=1)]
-    sure &= ~past_border & ~wrong_side(
-        source, _vertices(source_points), target, _vertices(target_points), place_vertices, extent
-    )
-    places = np.einsum("nk,nkc->nc", weights, source.vertices[source.faces[face]])
-    sure = believable(target, bent, similarity.scale, places, sure | ~target_face, decay) & target_face
-    fill = HarmonicFill(target, sure, decay).matrix()
-    confidence = np.where(sure, 1 / (1 + (distance / (0.1 * extent)) ** 2), 0.0)
+    sides = Sides(source, _vertices(source_points), target, _vertices(target_points), extent)
+    crossed = _to_own_side(sides, source, bent, found, extent)
+    past_border = _on_border(source, found) & (found.distance > 0.05 * extent)
+    far = past_border | (found.distance > _REACH * extent)
+    decay = np.where(far, target.vertex_edge_length / (_DECAY * extent / similarity.scale) ** 2, 0.0)
+    sure = (agrees & ~past_border & ~crossed) | ~target_face
+    sure = believable(target, bent, similarity.scale, found.point, sure) & target_face
+    confidence = np.where(sure, 1 / (1 + (found.distance / (0.1 * extent)) ** 2), 0.0)
     labels = target.components
     still = tuple(np.flatnonzero(labels == k) for k in np.unique(labels[~target_face]))
-    return Correspondence(face, weights, confidence, bent.vertices, still, fill)
+    fill = HarmonicFill(target, sure, decay).matrix()
+    return Correspondence(found.face, found.weights, confidence, bent.vertices, still, fill)
 
 
 def places_on_source(
@@ -193,15 +186,58 @@ def _face_component(mesh: TriMesh, points: FeaturePoints, what: str) -> BoolArra
     return mask
 
 
+def _refuse_twins(points: FeaturePoints, vertex_count: int, what: str) -> None:
+    """RetargetError if two points hold the same place of the surface; two lips may touch."""
+    places = points.matrix(vertex_count)[:, np.unique(points.vertices)].toarray()
+    first, second = np.nonzero(np.triu(cdist(places, places) < 1e-6, 1))
+    if len(first):
+        raise RetargetError(
+            f"{what}: feature points {points.names[first[0]]!r} and {points.names[second[0]]!r} lie in the same place, "
+            "expected different places"
+        )
+
+
 def _vertices(points: FeaturePoints) -> IntArray:
     """(P,) the vertex nearest to each point."""
     vertices: IntArray = points.vertices[np.arange(len(points)), points.weights.argmax(axis=1)]
     return vertices
 
 
-def _on_border(mesh: TriMesh, face: IntArray, weights: FloatArray) -> BoolArray:
-    """(N,) true for places on a boundary edge of the mesh."""
-    open_edge = mesh.edge_face_count[mesh.face_edges] == 1
-    # Edge k of a face lies opposite to its corner k + 2.
-    border: BoolArray = (open_edge[face] & (weights[:, [2, 0, 1]] <= 1e-9)).any(axis=1) & (face >= 0)
+def _places(finder: SurfaceFinder, bent: TriMesh, active: IntArray, extent: float) -> tuple[Nearest, BoolArray]:
+    """Places of the vertices, face -1 for those that are not active; (V,) true where the normals agree."""
+    points, normals = bent.vertices[active], bent.vertex_normals[active]
+    nearest = finder.closest(points, normals, _AGREEMENT, _REACH * extent)
+    lost = nearest.face < 0
+    count = len(bent.vertices)
+    places = Nearest(np.full(count, np.inf), np.full(count, -1, np.int64), np.zeros((count, 3)), bent.vertices.copy())
+    for whole, some, guess in zip(places, nearest, finder.closest(points[lost]), strict=True):
+        some[lost] = guess
+        whole[active] = some
+    agrees = np.zeros(count, bool)
+    agrees[active] = ~lost
+    return places, agrees
+
+
+def _to_own_side(sides: Sides, source: TriMesh, bent: TriMesh, places: Nearest, extent: float) -> BoolArray:
+    """Move places (in place) from the other lip or lid to the own one where it is as near.
+
+    Returns (V,) true for places that stay well inside the other side. Near the borders of the sides, which the points
+    give only roughly, a place is left where it is.
+    """
+    next_to = source.faces[places.face, places.weights.argmax(axis=1)]
+    deep = np.zeros(len(next_to), bool)
+    for vertices, faces, depth in sides.groups(np.flatnonzero(sides.crossed(next_to))):
+        own = SurfaceFinder(source, faces).closest(bent.vertices[vertices], bent.vertex_normals[vertices], _AGREEMENT)
+        near = own.distance < places.distance[vertices] + 0.003 * extent
+        for whole, some in zip(places, own, strict=True):
+            whole[vertices[near]] = some[near]
+        deep[vertices] = ~near & (depth[next_to[vertices]] > 0.06 * extent)
+    return deep
+
+
+def _on_border(mesh: TriMesh, places: Nearest) -> BoolArray:
+    """(N,) true for places on the mesh's border: at most two corners hold them, both of them boundary vertices."""
+    holds = places.weights > 1e-6
+    inside = holds & ~mesh.boundary_vertices[mesh.faces[places.face]]
+    border: BoolArray = ~inside.any(axis=1) & ~holds.all(axis=1) & (places.face >= 0)
     return border

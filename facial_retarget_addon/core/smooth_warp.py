@@ -50,7 +50,8 @@ def fit_smooth_warp(points: FloatArray, images: FloatArray, stiffness: float = 0
 
     Raises
     ------
-    RetargetError : if there are fewer than 4 points, if they lie in one plane, or if two of them coincide.
+    RetargetError : if there are fewer than 4 points, if they lie in one plane, or, without stiffness, if two of them
+        coincide.
 
     References
     ----------
@@ -66,7 +67,7 @@ def fit_smooth_warp(points: FloatArray, images: FloatArray, stiffness: float = 0
         raise RetargetError(f"all {len(points)} points lie in one plane, expected points spread over a face")
     distance = cdist(x, x)
     np.fill_diagonal(distance, np.inf)
-    if distance.min() < 1e-7:
+    if stiffness == 0 and distance.min() < 1e-7:
         raise RetargetError("two feature points lie in the same place, expected different places")
     np.fill_diagonal(distance, -stiffness)
     count = len(x)
