@@ -1,12 +1,14 @@
 """Retarget the performance and bake it."""
 
+from time import monotonic
+
 from bpy.types import Context, Event, Operator
 
 from .errors import tells_user
 from .polls import OnTask
 
-TICK = 0.02
-"""Seconds between two steps of the modal operator."""
+TICK, TURN = 0.01, 0.1
+"""Seconds that Blender has between two turns of the modal operator, and that a turn takes."""
 
 
 class FACIAL_RETARGET_OT_retarget(OnTask, Operator):
@@ -27,24 +29,29 @@ class FACIAL_RETARGET_OT_retarget(OnTask, Operator):
         return {"RUNNING_MODAL"}
 
     def modal(self, context: Context, event: Event) -> set[str]:
-        """One step for each tick of the timer; nothing else gets through until the end."""
+        """A turn for each tick of the timer; nothing else gets through until the end."""
         if event.type == "ESC":
             self.cancel(context)
             self.report({"INFO"}, "Stopped: nothing was changed")
             return {"CANCELLED"}
         if event.type != "TIMER":
             return {"RUNNING_MODAL"}
-        result = self._step(context)
-        if result != {"RUNNING_MODAL"}:
-            self.cancel(context)
+        result = {"CANCELLED"}
+        try:
+            result = self._turn(context)
+        finally:
+            if result != {"RUNNING_MODAL"}:
+                self.cancel(context)
         return result
 
     @tells_user
-    def _step(self, context: Context) -> set[str]:
-        try:
-            share, what = next(self._steps)
-        except StopIteration as end:
-            return self._finish(end.value)
+    def _turn(self, context: Context) -> set[str]:
+        end = monotonic() + TURN
+        while monotonic() < end:
+            try:
+                share, what = next(self._steps)
+            except StopIteration as stop:
+                return self._finish(stop.value)
         context.window_manager.progress_update(100 * share)
         context.workspace.status_text_set(f"Retargeting {share:.0%}: {what} (Esc stops)")
         return {"RUNNING_MODAL"}

@@ -13,7 +13,7 @@ class FACIAL_RETARGET_PT_faces(RetargetTab, Panel):
     def draw(self, context: Context) -> None:
         """Draw the panel."""
         layout = self.layout
-        layout.use_property_split = True
+        layout.use_property_split, layout.use_property_decorate = True, False
         task = context.scene.facial_retarget
         layout.prop(task, "source")
         layout.prop(task, "source_neutral")

@@ -14,7 +14,7 @@ class FACIAL_RETARGET_PT_job(RetargetTab, Panel):
     def draw(self, context: Context) -> None:
         """Draw the panel."""
         layout = self.layout
-        layout.use_property_split = True
+        layout.use_property_split, layout.use_property_decorate = True, False
         layout.prop(context.scene.facial_retarget, "output")
         row = layout.row(align=True)
         row.operator("facial_retarget.load_job")

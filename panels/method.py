@@ -13,7 +13,7 @@ class FACIAL_RETARGET_PT_retarget(RetargetTab, Panel):
     def draw(self, context: Context) -> None:
         """Draw the panel."""
         layout = self.layout
-        layout.use_property_split = True
+        layout.use_property_split, layout.use_property_decorate = True, False
         task = context.scene.facial_retarget
         layout.prop(task, "method")
         layout.prop(task, "report")
@@ -31,7 +31,7 @@ class FACIAL_RETARGET_PT_settings(RetargetTab, Panel):
     def draw(self, context: Context) -> None:
         """Draw the panel."""
         layout = self.layout
-        layout.use_property_split = True
+        layout.use_property_split, layout.use_property_decorate = True, False
         task = context.scene.facial_retarget
         settings = getattr(task, task.method)
         for name in settings.__annotations__:
