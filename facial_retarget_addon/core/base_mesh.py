@@ -19,6 +19,7 @@ from .errors import RetargetError
 from .mesh import TriMesh
 from .placed_points import PlacedPoints
 from .points import FeaturePoints, common_names
+from .raycast import CasterFactory, EmbreeCaster
 
 OUTER = "outer"
 _OPENINGS = (
@@ -69,12 +70,14 @@ def base_mesh(
     target_mesh: TriMesh,
     target_points: FeaturePoints,
     triangles: Sequence[tuple[str, str, str]] | None = None,
+    make_caster: CasterFactory = EmbreeCaster,
 ) -> BaseMesh:
     """Base mesh of the points that both faces have.
 
     Parameters
     ----------
     triangles : the artist's own base over point names; None to have one made.
+    make_caster : makes what casts rays on a mesh; Embree unless another one is given.
 
     Returns
     -------
@@ -102,7 +105,7 @@ def base_mesh(
     else:
         standard = next((t for t in STANDARD if {n for corner in t for n in corner} <= set(names)), None)
         if standard is None:
-            rows = dual_triangulation(source_mesh, source_points.subset(names))
+            rows = dual_triangulation(source_mesh, source_points.subset(names), make_caster)
         else:
             rows = _rows(standard, names)
             extra = np.setdiff1d(np.arange(len(names)), rows)

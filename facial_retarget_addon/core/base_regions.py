@@ -19,7 +19,7 @@ from .geodesic import distances_between, nearest_regions, shortcut_graph, surfac
 from .manifold_part import manifold_part
 from .mesh import TriMesh
 from .points import FeaturePoints
-from .raycast import EmbreeCaster
+from .raycast import CasterFactory, EmbreeCaster, RayCaster
 from .subdivision import split_faces
 
 _REACH = 0.8
@@ -52,7 +52,9 @@ class _Skin(NamedTuple):
     between: FloatArray
 
 
-def dual_triangulation(mesh: TriMesh, points: FeaturePoints) -> IntArray:
+def dual_triangulation(
+    mesh: TriMesh, points: FeaturePoints, make_caster: CasterFactory = EmbreeCaster
+) -> IntArray:
     """Triangulation of feature points whose edges join neighbouring regions of the skin.
 
     Returns
@@ -68,7 +70,7 @@ def dual_triangulation(mesh: TriMesh, points: FeaturePoints) -> IntArray:
     ----------
     Kshirsagar et al. (regions of feature points).
     """
-    skin = _cut_skin(*_refined(mesh, points))
+    skin = _cut_skin(*_refined(mesh, points), make_caster)
     seeds = skin.points.subset([points.names[k] for k in skin.chosen])
     label = nearest_regions(skin.mesh, seeds, np.inf, skin.graph).label
     of_face = np.where(skin.kept & (label >= 0), skin.chosen[label], -1)[skin.mesh.faces]
@@ -146,13 +148,13 @@ def _split(mesh: TriMesh, points: FeaturePoints) -> tuple[TriMesh, FeaturePoints
     return fine, FeaturePoints(points.names, chosen, np.where(heavy[:, None], outer_weights, inner_weights))
 
 
-def _cut_skin(mesh: TriMesh, points: FeaturePoints) -> _Skin:
+def _cut_skin(mesh: TriMesh, points: FeaturePoints, make_caster: CasterFactory) -> _Skin:
     """The skin that the base may cover: in reach of a point, and open or a rim of a pocket."""
     separation = eye_separation(mesh, points)
     reach = _REACH * separation
     graph = shortcut_graph(mesh)
     near = nearest_regions(mesh, points, reach, graph)
-    seen = _openness(mesh, near.label >= 0) >= _OPEN
+    seen = _openness(mesh, near.label >= 0, make_caster(mesh)) >= _OPEN
     if not seen.any():
         raise RetargetError(
             f"no skin around the {len(points)} feature points is seen from outside, "
@@ -185,7 +187,7 @@ def _behind_others(depth: FloatArray, between: FloatArray, rim: float) -> IntArr
     return np.flatnonzero(deep | doubled)
 
 
-def _openness(mesh: TriMesh, wanted: BoolArray) -> FloatArray:
+def _openness(mesh: TriMesh, wanted: BoolArray, caster: RayCaster) -> FloatArray:
     """(V,) share of all directions in which nothing hides a vertex; 0 where it is not wanted."""
     k = np.arange(_DIRECTIONS) + 0.5
     height, turn = 1 - 2 * k / _DIRECTIONS, np.pi * (1 + np.sqrt(5)) * k
@@ -195,7 +197,7 @@ def _openness(mesh: TriMesh, wanted: BoolArray) -> FloatArray:
     normals = mesh.vertex_normals[chosen]
     row, column = np.nonzero(normals @ directions.T > 0)
     start = mesh.vertices[chosen] + 1e-4 * mesh.size * normals
-    free = ~EmbreeCaster(mesh).nearest(start[row], directions[column]).found
+    free = ~caster.nearest(start[row], directions[column]).found
     share = np.zeros(len(mesh.vertices))
     share[chosen] = np.bincount(row[free], minlength=len(chosen)) / _DIRECTIONS
     return share

@@ -16,6 +16,7 @@ _SHARP = np.radians(75)
 """A loop that turns by more than this at a point has a corner there (corners of mouth and eyes)."""
 _ON_BORDER = 0.25
 """A point lies on a boundary of the mesh if it is nearer to it than this share of the points' spacing."""
+_EXACTLY = 0.01
 _MOST = 0.75
 """Two neighbours on a boundary of the mesh are joined along it if that is less than this share of its way round."""
 _JUMP = 4.0
@@ -73,7 +74,9 @@ class BoundaryCurves:
         pieces: list[FloatArray | None] = [None] * len(points)
         for ring in self._mesh.boundary_loops:
             place, gap = _project(self._mesh.vertices[ring], points)
-            near = gap < _ON_BORDER * spacing
+            # A loop that as a whole runs beside the boundary follows it; else only pieces whose ends lie on it do.
+            share = _ON_BORDER if (gap < _ON_BORDER * spacing).all() else _EXACTLY
+            near = gap < share * spacing
             ahead = np.mod(np.roll(place, -1) - place, len(ring))
             for k in np.flatnonzero(near & np.roll(near, -1) & (ahead > 0) & (ahead < _MOST * len(ring))):
                 pieces[k] = _stretch(self._mesh.vertices[ring], place[k], place[k] + ahead[k])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
@@ -16,7 +16,7 @@ from .errors import RetargetError
 from .mesh import TriMesh
 from .piercing import Pierced, closest_agreeing, outliers, pierce
 from .points import FeaturePoints
-from .raycast import EmbreeCaster, RayCaster
+from .raycast import CasterFactory, EmbreeCaster, RayCaster
 from .subdivision import Level, boundary_parameters
 from .vertex_neighbours import adjacency, edge_lengths_around, incidence, mean_of_known, pick, spread_inwards, widen
 
@@ -107,7 +107,7 @@ def build_normal_mesh(
     points: FeaturePoints,
     loops: Sequence[BaseLoop],
     steps: Sequence[Level],
-    caster: RayCaster | None = None,
+    make_caster: CasterFactory = EmbreeCaster,
 ) -> NormalMesh:
     """Pierce a face level by level.
 
@@ -122,11 +122,11 @@ def build_normal_mesh(
 
     Parameters
     ----------
-    mesh : the face.
+    mesh : the face; components without a point (eyes, teeth, lashes) are not looked at.
     points : the base's vertices on it, in the base's order.
     loops : the base's boundary loops.
     steps : the subdivision hierarchy of the base, one step per level.
-    caster : casts rays on `mesh`; Embree if none is given.
+    make_caster : makes what casts rays on the skin; Embree unless another one is given.
 
     Raises
     ------
@@ -139,14 +139,24 @@ def build_normal_mesh(
     if not steps or steps[0].matrix.shape[1] != len(points):
         start = steps[0].matrix.shape[1] if steps else 0
         raise RetargetError(f"the hierarchy starts from {start} base vertices, but {len(points)} points arrived")
-    builder = _Builder(mesh, points, loops, steps, caster or EmbreeCaster(mesh))
+    rows = _skin_faces(mesh, points)
+    skin = TriMesh(mesh.vertices, mesh.faces[rows], mesh.polygons[rows])
+    builder = _Builder(skin, points, loops, steps, make_caster(skin))
     base = points.positions(mesh.vertices)
     levels: list[NormalLevel] = []
     positions = base
     for number, step in enumerate(steps):
-        levels.append(builder.level(positions, step, number))
-        positions = levels[-1].positions
+        level = builder.level(positions, step, number)
+        levels.append(replace(level, place_face=rows[level.place_face]))
+        positions = level.positions
     return NormalMesh(base, tuple(steps), tuple(levels))
+
+
+def _skin_faces(mesh: TriMesh, points: FeaturePoints) -> IntArray:
+    """Rows of the faces of the components that hold points."""
+    holders = points.vertices[np.arange(len(points)), points.weights.argmax(axis=1)]
+    held = np.isin(mesh.components, mesh.components[holders])
+    return np.flatnonzero(held[mesh.faces[:, 0]])
 
 
 class _Places:

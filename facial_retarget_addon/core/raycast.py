@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -30,6 +31,10 @@ class RayCaster(Protocol):
     def nearest(self, origins: FloatArray, directions: FloatArray, limit: FloatArray | float = np.inf) -> Hits:
         """Nearest hit of each ray (origins and unit directions (N, 3)) within `limit` (N,) units."""
         ...
+
+
+CasterFactory = Callable[[TriMesh], RayCaster]
+"""Makes a caster of a mesh: `EmbreeCaster`, or Blender's where it runs."""
 
 
 class EmbreeCaster:
