@@ -10,10 +10,10 @@ import numpy as np
 
 from ..core.arrays import FloatArray
 from .cast import ACTOR, APE, APE_MANNER, BONE, FUR, HUMAN, SKULL, SKULL_MANNER, smooth_warp
-from .chart import ringed_layout, scattered_layout
 from .expressions import performance_table
 from .face import DemoFace, build_face
 from .landmarks import POINTS
+from .layouts import ringed_layout, scattered_layout
 from .muscles import contractions
 
 __all__ = [

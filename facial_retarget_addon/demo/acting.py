@@ -29,11 +29,11 @@ class Acting:
 
     Attributes
     ----------
-    neutral : (N, 3) positions at rest, in the sculpture's units.
+    neutral : (N, 3) float32 positions at rest, in the sculpture's units.
     """
 
     def __init__(self, sculpture: Sculpture, places: FloatArray, manner: Mapping[str, float]) -> None:
-        self.neutral = sculpture.surface(places)
+        self.neutral = sculpture.surface(places).astype(np.float32)
         self._gain = np.array([manner.get(name.removesuffix("_l").removesuffix("_r"), 1.0) for name in ACTIONS])
         slides, bulges = fields(places)
         pulls = np.einsum("ank,nkc->anc", slides, sculpture.tangents(places))

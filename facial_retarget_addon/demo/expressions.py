@@ -71,33 +71,57 @@ _KEYS: tuple[tuple[int, str, float], ...] = (
 """Frame, expression and its strength, at 24 frames a second."""
 
 _BLINKS = (4, 33, 76, 94, 134, 176)
+"""Frames at which the lids are shut."""
 _SPEECH = (80, 112)
+"""First and last frame of the talking."""
 
 
 def performance_table() -> FloatArray:
-    """(F, A) contractions of a performance that starts and ends neutral: expressions, blinks, speech."""
-    frame = np.arange(_KEYS[-1][0] + 1)
+    """(F, A) contractions of a performance that starts and ends neutral: expressions, speech, blinks."""
+    frame = np.arange(_KEYS[-1][0] + 1, dtype=np.float64)
+    table = _expressions(frame) + _speech(frame)
+    lids = contractions({"blink": 1.0})
+    # A blink shuts the lids from wherever the expression holds them.
+    table += _blinks(frame)[:, None] * np.maximum(lids - table * (lids > 0), 0.0)
+    return table
+
+
+def _expressions(frame: FloatArray) -> FloatArray:
+    """Eased blends from key to key."""
     names = tuple(EXPRESSIONS)
     keys = np.array([at for at, _, _ in _KEYS])
-    levels = np.array([[value * (name == wanted) for wanted in names] for _, name, value in _KEYS])
+    levels = np.array([[strength * (name == wanted) for wanted in names] for _, name, strength in _KEYS])
     span = np.clip(np.searchsorted(keys, frame, side="right") - 1, 0, len(keys) - 2)
-    t = np.clip((frame - keys[span]) / (keys[span + 1] - keys[span]), 0.0, 1.0)
-    ease = (t * t * (3 - 2 * t))[:, None]
-    table = (levels[span] + ease * (levels[span + 1] - levels[span])) @ contractions(*EXPRESSIONS.values())
+    ease = _eased((frame - keys[span]) / (keys[span + 1] - keys[span]))[:, None]
+    blend: FloatArray = (levels[span] + ease * (levels[span + 1] - levels[span])) @ contractions(*EXPRESSIONS.values())
+    return blend
+
+
+def _speech(frame: FloatArray) -> FloatArray:
+    """Jaw and lips as if talking; not in step with each other, as in speech."""
     start, end = _SPEECH
-    s = np.clip((frame - start) / (end - start), 0.0, 1.0)
-    envelope = np.sin(np.pi * s) ** 0.5
-    syllable = 2 * np.pi * (frame - start) / 24.0
-    speech = {
-        "jaw": 0.22 * np.sin(2.1 * syllable) ** 2,
-        "pucker": 0.55 * np.clip(np.sin(1.3 * syllable + 0.6), 0.0, None),
-        "press": 0.5 * np.clip(np.cos(3.1 * syllable), 0.0, None) ** 3,
-        "depressor_labii": 0.35 * np.sin(1.7 * syllable) ** 2,
-        "frontalis_outer": 0.25 * np.clip(np.sin(0.8 * syllable), 0.0, None),
+    beat = 2 * np.pi * (frame - start) / 24.0
+    share = np.clip((frame - start) / (end - start), 0.0, 1.0)
+    envelope = np.sqrt(4 * share * (1 - share))
+    talk = {
+        "jaw": 0.22 * np.sin(2.1 * beat) ** 2,
+        "pucker": 0.55 * np.maximum(np.sin(1.3 * beat + 0.6), 0.0),
+        "press": 0.5 * np.maximum(np.cos(3.1 * beat), 0.0) ** 3,
+        "depressor_labii": 0.35 * np.sin(1.7 * beat) ** 2,
+        "frontalis_outer": 0.25 * np.maximum(np.sin(0.8 * beat), 0.0),
     }
-    for name, value in speech.items():
-        table += (envelope * value)[:, None] * contractions({name: 1.0})
-    closed = np.max([np.clip(1.0 - np.abs(frame - at) / 3.0, 0.0, 1.0) for at in _BLINKS], axis=0)
-    lids = contractions({"blink": 1.0})
-    shut = (closed * closed * (3 - 2 * closed))[:, None]
-    return np.asarray(table + shut * np.maximum(lids - table * (lids > 0), 0.0))
+    strength = np.stack([envelope * value for value in talk.values()], axis=1)
+    table: FloatArray = strength @ contractions(*({name: 1.0} for name in talk))
+    return table
+
+
+def _blinks(frame: FloatArray) -> FloatArray:
+    """How far the lids are shut, (F,) from 0 to 1."""
+    return _eased(np.max([1.0 - np.abs(frame - at) / 3.0 for at in _BLINKS], axis=0))
+
+
+def _eased(t: FloatArray) -> FloatArray:
+    """A slow start and a slow end between 0 and 1."""
+    s = np.clip(t, 0.0, 1.0)
+    eased: FloatArray = s * s * (3 - 2 * s)
+    return eased

@@ -12,9 +12,9 @@ from ..core.mesh import TriMesh
 from ..core.methods.base import Face
 from ..core.points import FeaturePoints
 from .acting import Acting
-from .chart import Layout
 from .expressions import EXPRESSIONS
 from .landmarks import POINTS
+from .layouts import Layout
 from .muscles import contractions
 from .paint import Palette, skin_colours
 from .parts import Part, parts
@@ -55,13 +55,10 @@ class DemoFace:
 
         wrinkles : factor on the height of the wrinkles; 0 for the same acting on skin that never folds.
         """
-        neutral = self.face.mesh.vertices.astype(np.float32)
-        frames = np.repeat(neutral[None], len(table), axis=0)
         moved = self.acting.displacements(table, wrinkles)
-        if self.warp is unwarped:
-            frames[:, : len(self.places)] += moved
-        else:
-            frames[:, : len(self.places)] = self.warp(moved + self.acting.neutral)
+        moved += self.acting.neutral
+        frames = np.repeat(self.face.mesh.vertices[None].astype(np.float32), len(table), axis=0)
+        frames[:, : len(self.places)] = self.warp(moved)
         return frames
 
 

@@ -66,7 +66,7 @@ def _teeth(sculpture: Sculpture) -> Part:
     gaps = 1.0 - np.abs(np.sin(14 * np.pi * (u - 0.5))) ** 0.5
     places = np.stack([x, -1.155 + 0.20 * v + 0.02 * gaps * (v < 0.1)], axis=1)
     depth = 0.075 * sculpture.shape.muzzle - 0.160 - 1.7 * x**2 - 0.05 * v - 0.012 * gaps
-    return _behind(sculpture, places, depth, 1.0, quads, _TOOTH)
+    return _behind(sculpture, places, depth, 1.0, quads, 0.90, _TOOTH)
 
 
 def _wall(sculpture: Sculpture) -> Part:
@@ -74,7 +74,7 @@ def _wall(sculpture: Sculpture) -> Part:
     v, u, quads = _grid(12, 16)
     places = np.stack([1.3 * (u - 0.5), -1.66 + 0.90 * v], axis=1)
     depth = -0.42 + 0.38 * (2 * u - 1) ** 4 * np.exp(-(((places[:, 1] - MOUTH.y) / 0.22) ** 2))
-    return _behind(sculpture, places, depth, 0.85, quads, _DARK)
+    return _behind(sculpture, places, depth, 0.85, quads, 0.80, _DARK)
 
 
 def _behind(
@@ -83,11 +83,12 @@ def _behind(
     depth: FloatArray,
     narrower: float,
     quads: IntArray,
+    u: float,
     colour: tuple[float, float, float],
 ) -> Part:
-    """A part that follows the base sheet, `depth` (eye separations) in front of it and narrower."""
+    """A part that follows the base sheet, `depth` (eye separations) before it and narrower; u is its texture's place."""
     positions = sculpture.sheet(places) * np.array([narrower, 1.0, 1.0])
     positions[:, 2] += sculpture.scale * depth
     low, high = places.min(axis=0), places.max(axis=0)
-    uvs = np.array([0.90, 0.02]) + 0.06 * (places - low) / (high - low)
+    uvs = np.array([u, 0.02]) + 0.06 * (places - low) / (high - low)
     return Part(positions, quads, uvs, np.tile(colour, (len(positions), 1)))

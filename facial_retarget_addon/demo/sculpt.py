@@ -12,7 +12,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from ..core.arrays import FloatArray, cross, unit_vectors
-from .chart import LEFT_EYE, MOUTH, RIGHT_EYE
+from .chart import LEFT_EYE, MOUTH, RIGHT_EYE, brow_line
 from .smooth import along, bell, blob, cushion, dome, roll, smooth_max, step
 
 # chart y: profile Y and Z without nose and lips, half width, depth of the side, rise of the side
@@ -176,8 +176,7 @@ def _relief(places: FloatArray, shape: Shape) -> FloatArray:
     x, y = places.T
     ax = np.sqrt(x**2 + 4e-4)
     # bones
-    brow_line = 0.225 + 0.085 * np.sin(2.9 * np.clip(ax - 0.12, 0.0, 1.0))
-    h = shape.brow * 0.050 * along(ax, 0.14, 0.86, 0.16) * bell(y - brow_line, 0.10)
+    h = shape.brow * 0.050 * along(ax, 0.14, 0.86, 0.16) * bell(y - brow_line(ax), 0.10)
     h -= 0.012 * blob(x, y, 0.0, 0.26, 0.08, 0.12)
     h += 0.030 * blob(ax, y, 0.42, 0.62, 0.25, 0.20)
     h -= shape.temple * 0.045 * blob(ax, y, 1.12, 0.30, 0.20, 0.28)
