@@ -39,7 +39,7 @@ _NEAR_SKIN = 0.15
 """A gap is closed where the new triangle stays this near to the skin, as a share of its longest edge."""
 
 
-_SLIVER = 0.3
+_SLIVER = 0.25
 """A gap is not closed by a triangle whose height is below this share of its longest edge."""
 
 

@@ -212,7 +212,7 @@ class _Builder:
                 looks.append(self._look_again(positions, step.faces, neighbours, failed, places))
         unknown = np.flatnonzero(failed)
         fill = mean_of_known(neighbours, unknown)
-        correction = self._fill(positions, step.faces, unknown, fill, places)
+        correction = self._fill(positions, step.faces, neighbours, unknown, fill, places)
         return NormalLevel(
             positions,
             step.faces,
@@ -286,7 +286,13 @@ class _Builder:
         return SecondLook(unknown, fill, directions.tocsr(), offsets)
 
     def _fill(
-        self, positions: FloatArray, faces: IntArray, unknown: IntArray, fill: sp.csr_matrix, places: _Places
+        self,
+        positions: FloatArray,
+        faces: IntArray,
+        neighbours: sp.csr_matrix,
+        unknown: IntArray,
+        fill: sp.csr_matrix,
+        places: _Places,
     ) -> FloatArray:
         """Put piercing errors on the surface near their neighbours' mean; returns the way there (K, 3)."""
         if not len(unknown):
@@ -294,7 +300,7 @@ class _Builder:
         mean = fill @ positions
         positions[unknown] = mean
         facing = TriMesh(positions, faces).vertex_normals[unknown]
-        near = closest_agreeing(self._finder, mean, facing)
+        near = closest_agreeing(self._finder, mean, facing, edge_lengths_around(neighbours, positions)[unknown])
         positions[unknown] = near.point
         places.put(unknown, near)
         correction: FloatArray = near.point - mean

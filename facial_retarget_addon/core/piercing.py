@@ -64,10 +64,12 @@ def outliers(neighbours: sp.csr_matrix, offsets: FloatArray, hit: BoolArray, edg
     return far
 
 
-def closest_agreeing(finder: SurfaceFinder, points: FloatArray, normals: FloatArray) -> Nearest:
-    """Closest place (N) whose normal agrees; the closest of all where none agrees."""
+def closest_agreeing(
+    finder: SurfaceFinder, points: FloatArray, normals: FloatArray, limit: FloatArray | float = np.inf
+) -> Nearest:
+    """Closest place (N) whose normal agrees; the closest of all where none within the limit (N,) agrees."""
     near = finder.closest(points, normals, AGREEMENT)
-    lost = near.face < 0
+    lost = (near.face < 0) | (near.distance > limit)
     if lost.any():
         for mine, other in zip(near, finder.closest(points[lost]), strict=True):
             mine[lost] = other
