@@ -28,9 +28,20 @@ __all__ = [
 ]
 
 
-def actor() -> DemoFace:
-    """The actor: a human face of quads in rings around eyes and mouth."""
-    return build_face("actor", ACTOR, ringed_layout(180, 200, 14), HUMAN, {})
+def actor(vertices: int = 42_000) -> DemoFace:
+    """The actor: a human face of quads in rings around eyes and mouth.
+
+    Parameters
+    ----------
+    vertices : about how many there shall be.
+
+    Raises
+    ------
+    RetargetError : if they are too few for the feature points.
+    """
+    fineness = np.sqrt(vertices / 42_000)
+    columns, rows, rings = (round(count * fineness) for count in (180, 200, 14))
+    return build_face("actor", ACTOR, ringed_layout(columns, rows, rings), HUMAN, {})
 
 
 def performance(face: DemoFace) -> FloatArray:
@@ -47,10 +58,20 @@ def targets() -> list[DemoFace]:
     ]
 
 
-def warped_actor(rng: np.random.Generator) -> DemoFace:
+def warped_actor(rng: np.random.Generator, vertices: int = 40_000) -> DemoFace:
     """The actor through a smooth invertible warp, on scattered triangles: a target whose truth is known.
 
     Its frames are the warp of the actor's, so under equal contractions `frames` is the truth for any
     method that carries the actor's frames onto it.
+
+    Parameters
+    ----------
+    rng : where the scatter and the warp come from.
+    vertices : about how many there shall be.
+
+    Raises
+    ------
+    RetargetError : if they are too few for the feature points.
     """
-    return build_face("warped_actor", ACTOR, scattered_layout(0.021, rng), HUMAN, {}, smooth_warp(rng))
+    spacing = 0.021 * np.sqrt(40_000 / vertices)
+    return build_face("warped_actor", ACTOR, scattered_layout(spacing, rng), HUMAN, {}, smooth_warp(rng))

@@ -9,6 +9,7 @@ import scipy.sparse as sp
 from scipy.spatial import Delaunay, cKDTree
 
 from ..core.arrays import BoolArray, FloatArray, IntArray
+from ..core.errors import RetargetError
 from .chart import HIGH, LOW, MOUTH, OPENINGS, Lens, rounded
 from .smooth import along, step
 
@@ -33,6 +34,10 @@ class Layout:
         """Return this mesh with a vertex on each of some places (N, 2), and those vertices (N,).
 
         The nearest vertex is moved there; on an opening's rim, the nearest one of the rim.
+
+        Raises
+        ------
+        RetargetError : if two places want the same vertex, or a polygon folds over.
         """
         rim = _on_rim(self.places)
         wanted = _on_rim(places)
@@ -42,7 +47,10 @@ class Layout:
             vertices[wanted == kind] = free[cKDTree(self.places[free]).query(places[wanted == kind])[1]]
         moved = self.places.copy()
         moved[vertices] = places
-        return Layout(self._relaxed(moved, vertices), self.polygons), vertices
+        moved = self._relaxed(moved, vertices)
+        if len(np.unique(vertices)) < len(vertices) or _areas(moved, self.polygons).min() <= 0:
+            raise RetargetError(f"a face of {len(moved)} vertices is too coarse for {len(places)} feature points")
+        return Layout(moved, self.polygons), vertices
 
     def _relaxed(self, places: FloatArray, pinned: IntArray) -> FloatArray:
         """Places after the neighbours of the pinned vertices have made room."""
@@ -64,6 +72,13 @@ def _on_rim(places: FloatArray) -> BoolArray:
     """(N,) true for places on the rim of an opening."""
     rim: BoolArray = np.min([np.abs(lens.distance(places)) for lens in OPENINGS], axis=0) < 1e-6
     return rim
+
+
+def _areas(places: FloatArray, polygons: IntArray) -> FloatArray:
+    """Areas (P,) on the chart, negative where a polygon is turned over."""
+    x, y = np.moveaxis(places[polygons], -1, 0)
+    areas: FloatArray = 0.5 * (x * np.roll(y, -1, axis=1) - y * np.roll(x, -1, axis=1)).sum(axis=1)
+    return areas
 
 
 def _links(polygons: IntArray, count: int) -> sp.csr_matrix:

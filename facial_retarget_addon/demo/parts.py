@@ -86,7 +86,7 @@ def _behind(
     u: float,
     colour: tuple[float, float, float],
 ) -> Part:
-    """A part that follows the base sheet, `depth` (eye separations) before it and narrower; u is its texture's place."""
+    """A part that follows the base sheet, `depth` (eye separations) before it and narrower; u places its texture."""
     positions = sculpture.sheet(places) * np.array([narrower, 1.0, 1.0])
     positions[:, 2] += sculpture.scale * depth
     low, high = places.min(axis=0), places.max(axis=0)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from facial_retarget_addon import demo
+from facial_retarget_addon.core.errors import RetargetError
 from facial_retarget_addon.demo import chart
 
 
@@ -60,6 +61,17 @@ def test_every_vertex_has_its_place_and_colour(faces):
             assert values.max() <= 1.0
         _, twins = np.unique(face.uvs.round(9), axis=0, return_counts=True)
         assert twins.max() == 1
+
+
+def test_faces_come_in_other_densities(faces):
+    names = faces[0].face.points.names
+    for face in (demo.actor(vertices=26_000), demo.warped_actor(np.random.default_rng(3), vertices=20_000)):
+        wanted = 26_000 if face.name == "actor" else 20_000
+        assert abs(len(face.face.mesh.vertices) - wanted) < 0.1 * wanted
+        assert face.face.points.names == names
+        assert skin_of(face).is_edge_manifold
+    with pytest.raises(RetargetError, match="too coarse"):
+        demo.actor(vertices=400)
 
 
 def test_points_of_all_faces_are_the_same_skin(faces):
