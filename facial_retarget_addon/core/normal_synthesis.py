@@ -79,15 +79,17 @@ class _LevelSynthesis:
         self._looks = [_LookSynthesis(look, level.faces) for look in level.second_looks]
         self._failed = np.flatnonzero(level.failed)
         self._fill, self._correction = level.fill.astype(np.float32), level.correction.astype(np.float32)
-        self._a, self._b, self._c = (np.empty((len(level.faces), 3), np.float32) for _ in range(3))
+        # One row per coordinate: contiguous rows are twice as fast as columns.
+        self._scratch = np.empty((10, len(level.faces)), np.float32)
+        self._sums = np.empty((3, self.count), np.float32)
 
     def apply(self, coarse: FloatArray, offsets: FloatArray) -> FloatArray:
         fine: FloatArray = self._matrix @ coarse
         fine[self._boundary] += self._displacement
         fine[self._followers] += self._following
         normals = self._normals(fine)
-        normals *= offsets[:, None]
-        fine += normals
+        normals *= offsets
+        fine += normals.T
         for look in self._looks:
             look.apply(fine)
         if len(self._failed):
@@ -95,23 +97,26 @@ class _LevelSynthesis:
         return fine
 
     def _normals(self, positions: FloatArray) -> FloatArray:
-        a, b, c = self._a, self._b, self._c
-        np.take(positions, self._corners[0], axis=0, out=a, mode="clip")
-        np.take(positions, self._corners[1], axis=0, out=b, mode="clip")
-        np.take(positions, self._corners[2], axis=0, out=c, mode="clip")
-        b -= a
-        c -= a
-        np.multiply(b[:, 1], c[:, 2], out=a[:, 0])
-        a[:, 0] -= b[:, 2] * c[:, 1]
-        np.multiply(b[:, 2], c[:, 0], out=a[:, 1])
-        a[:, 1] -= b[:, 0] * c[:, 2]
-        np.multiply(b[:, 0], c[:, 1], out=a[:, 2])
-        a[:, 2] -= b[:, 1] * c[:, 0]
-        normals: FloatArray = self._incidence @ a
-        length = np.einsum("ij,ij->i", normals, normals)
+        """Area-weighted unit normals (3, N)."""
+        by_coordinate = np.ascontiguousarray(positions.T)
+        corners = self._scratch[:9].reshape(3, 3, -1)
+        for k in range(3):
+            for axis in range(3):
+                np.take(by_coordinate[axis], self._corners[k], out=corners[k, axis], mode="clip")
+        origin, u, v = corners
+        u -= origin
+        v -= origin
+        product, other = origin[0], self._scratch[9]
+        normals = self._sums
+        for axis, (j, k) in enumerate(((1, 2), (2, 0), (0, 1))):
+            np.multiply(u[j], v[k], out=product)
+            np.multiply(u[k], v[j], out=other)
+            product -= other
+            normals[axis] = self._incidence @ product
+        length = np.einsum("ij,ij->j", normals, normals)
         np.sqrt(length, out=length)
         np.maximum(length, 1e-30, out=length)
-        normals /= length[:, None]
+        normals /= length
         return normals
 
 
