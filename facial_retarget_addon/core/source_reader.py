@@ -11,6 +11,7 @@ from .base_mesh import BaseLoop
 from .mesh import TriMesh
 from .normal_mesh import NormalMesh, build_normal_mesh
 from .points import FeaturePoints, place_matrix
+from .raycast import CasterFactory
 from .subdivision import Level
 
 
@@ -23,6 +24,7 @@ class SourceReader:
     loops, steps : the base's boundary loops and subdivision steps.
     neutral : the source's normal mesh.
     pierce : pierce every frame (Na and Jung 2004, 3.1) instead of following the neutral's places.
+    make_caster : makes what casts rays on a mesh.
     """
 
     def __init__(
@@ -33,8 +35,10 @@ class SourceReader:
         steps: Sequence[Level],
         neutral: NormalMesh,
         pierce: bool,
+        make_caster: CasterFactory,
     ) -> None:
         self._mesh, self._points, self._loops, self._steps, self._pierce = mesh, points, loops, steps, pierce
+        self._make_caster = make_caster
         self._places = [
             place_matrix(mesh.faces[level.place_face], level.place_weights, len(mesh.vertices))
             for level in neutral.levels
@@ -50,5 +54,6 @@ class SourceReader:
         positions = frame.astype(np.float64)
         if not self._pierce:
             return [self._points.positions(positions), *(place @ positions for place in self._places)]
-        pierced = build_normal_mesh(self._mesh.with_vertices(positions), self._points, self._loops, self._steps)
+        moved = self._mesh.with_vertices(positions)
+        pierced = build_normal_mesh(moved, self._points, self._loops, self._steps, self._make_caster)
         return [pierced.base, *(level.positions for level in pierced.levels)]

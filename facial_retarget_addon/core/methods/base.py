@@ -11,6 +11,7 @@ from ..arrays import FloatArray, IntArray, Progress, no_progress
 from ..errors import RetargetError
 from ..mesh import TriMesh
 from ..points import FeaturePoints
+from ..raycast import CasterFactory, EmbreeCaster
 from . import METHODS
 from .settings import Settings
 
@@ -32,11 +33,13 @@ class Problem:
     """A source face, a target face, and the base mesh if the artist made one.
 
     base : triangles over point names, counter-clockwise seen from outside; None to have one made.
+    make_caster : makes what casts rays on a mesh: Embree, or Blender's BVHTree where no Embree wheel exists.
     """
 
     source: Face
     target: Face
     base: tuple[tuple[str, str, str], ...] | None = None
+    make_caster: CasterFactory = EmbreeCaster
 
 
 class Retargeter(Protocol):

@@ -28,6 +28,7 @@ from ..mesh import TriMesh
 from ..normal_mesh import NormalLevel, NormalMesh, build_normal_mesh
 from ..paper_motion import PaperMotion
 from ..points import FeaturePoints, common_names, place_matrix
+from ..raycast import CasterFactory
 from ..rbf import MultiquadricMaps, fit_multiquadrics
 from ..rigid import Similarity, fit_similarity
 from ..source_reader import SourceReader
@@ -73,6 +74,7 @@ class Pair:
     steps: list[Level]
     source_normal: NormalMesh
     target_normal: NormalMesh
+    make_caster: CasterFactory
 
     @property
     def source_base(self) -> FloatArray:
@@ -180,15 +182,26 @@ def prepare_pair(problem: Problem, settings: HierarchicalSettings, progress: Pro
     similarity = fit_similarity(on_source.positions(source.vertices), on_target.positions(target.vertices))
     separations = eye_separation(source, on_source), eye_separation(target, on_target)
     progress(0.4, "making the base mesh")
-    base = base_mesh(source, on_source, target, on_target, problem.base)
+    base = base_mesh(source, on_source, target, on_target, problem.base, problem.make_caster)
     base, on_source, on_target = refine_base(base, source, on_source, target, on_target, found, settings.base_points)
     steps = hierarchy(base.faces, len(base.names), settings.levels)
     progress(0.5, "piercing the source")
-    source_normal = build_normal_mesh(source, on_source, base.loops, steps)
+    source_normal = build_normal_mesh(source, on_source, base.loops, steps, problem.make_caster)
     progress(0.65, "piercing the target")
-    target_normal = build_normal_mesh(target, on_target, base.loops, steps)
+    target_normal = build_normal_mesh(target, on_target, base.loops, steps, problem.make_caster)
     return Pair(
-        source, target, on_source, on_target, base, found, similarity, *separations, steps, source_normal, target_normal
+        source,
+        target,
+        on_source,
+        on_target,
+        base,
+        found,
+        similarity,
+        *separations,
+        steps,
+        source_normal,
+        target_normal,
+        problem.make_caster,
     )
 
 
@@ -245,7 +258,9 @@ def _plain(pair: Pair, settings: HierarchicalSettings, binding: Binding) -> tupl
     motion: Motion = LinearMotion(scaled, rest, pair.similarity, turns)
     fine_motion: Motion = LinearMotion(fine, rest, pair.similarity, fine_turns)
     if settings.read == "pierce":
-        reader = SourceReader(pair.source, pair.source_points, pair.base.loops, pair.steps, pair.source_normal, True)
+        reader = SourceReader(
+            pair.source, pair.source_points, pair.base.loops, pair.steps, pair.source_normal, True, pair.make_caster
+        )
         fine_motion = PiercedMotion(reader, pair.source_normal, gains, pair.similarity, fine_turns)
         motion = BlendedMotion(fine_motion, binding, motion)
     return motion, fine_motion
@@ -296,7 +311,13 @@ def _paper(
 ) -> tuple[Motion, Motion, list[dict[str, Any]]]:
     """Motion of the target's vertices and of its finest level, and how well the examples are met."""
     reader = SourceReader(
-        pair.source, pair.source_points, pair.base.loops, pair.steps, pair.source_normal, settings.read == "pierce"
+        pair.source,
+        pair.source_points,
+        pair.base.loops,
+        pair.steps,
+        pair.source_normal,
+        settings.read == "pierce",
+        pair.make_caster,
     )
     gains = [settings.gain(level) for level in range(settings.levels + 1)]
     paper = PaperMotion(reader, _base_maps(pair, examples), pair.source_normal, pair.target_normal, gains)
