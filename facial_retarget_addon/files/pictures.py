@@ -18,7 +18,7 @@ import numpy.typing as npt
 from ..core.arrays import FloatArray, IntArray, unit_vectors
 from ..core.errors import RetargetError
 from ..core.mesh import TriMesh
-from ..core.raycast import EmbreeCaster
+from ..core.raycast import CasterFactory, EmbreeCaster, RayCaster
 
 Image = npt.NDArray[np.uint8]
 
@@ -113,6 +113,7 @@ def shade(
     view: tuple[float, float] = (0.0, 0.0),
     frame: FloatArray | None = None,
     colours: FloatArray | None = None,
+    make_caster: CasterFactory = EmbreeCaster,
 ) -> Image:
     """A picture of a mesh, smooth and lit from the side.
 
@@ -124,6 +125,7 @@ def shade(
     view : turn and tilt of the camera in degrees, as in `Camera.framing`.
     frame : (N, 3) positions that the camera frames, so that it stands still over many pictures; the vertices if None.
     colours : (V, 3) colours from 0 to 1, linear; skin if None.
+    make_caster : makes what casts the rays.
     """
     mesh = TriMesh(vertices, faces).checked("the mesh of a picture")
     camera = Camera.framing(mesh.vertices[np.unique(mesh.faces)] if frame is None else frame, size, *view)
@@ -131,7 +133,9 @@ def shade(
     # Four rays a pixel, in a 2 x 2 grid: the picture is made at twice the size and averaged.
     offsets = np.array([0.25, 0.75])
     x, y = np.meshgrid((columns[:, None] + offsets).ravel(), (rows[:, None] + offsets).ravel())
-    light = _trace(mesh, camera, x.ravel(), y.ravel(), colours).reshape(len(rows), 2, len(columns), 2, 3)
+    light = _trace(mesh, make_caster(mesh), camera, x.ravel(), y.ravel(), colours).reshape(
+        len(rows), 2, len(columns), 2, 3
+    )
     picture = np.empty((size[1], size[0], 3))
     picture[:] = BACKGROUND**2.2
     if len(rows) and len(columns):
@@ -187,10 +191,12 @@ def _covered(camera: Camera, vertices: FloatArray) -> tuple[IntArray, IntArray]:
     return np.arange(low[0], high[0]), np.arange(low[1], high[1])
 
 
-def _trace(mesh: TriMesh, camera: Camera, x: FloatArray, y: FloatArray, colours: FloatArray | None) -> FloatArray:
+def _trace(
+    mesh: TriMesh, caster: RayCaster, camera: Camera, x: FloatArray, y: FloatArray, colours: FloatArray | None
+) -> FloatArray:
     """Linear light (N, 3) that reaches the eye through places of the picture."""
     directions = camera.rays(x, y)
-    hits = EmbreeCaster(mesh).nearest(np.broadcast_to(camera.eye, directions.shape), directions)
+    hits = caster.nearest(np.broadcast_to(camera.eye, directions.shape), directions)
     light = np.broadcast_to(BACKGROUND**2.2, directions.shape).copy()
     found = hits.found
     corners, weights, towards = mesh.faces[hits.face[found]], hits.weights[found], -directions[found]

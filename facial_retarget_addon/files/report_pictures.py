@@ -9,6 +9,7 @@ import numpy as np
 
 from ..core.arrays import FloatArray
 from ..core.methods.base import Face, Problem
+from ..core.raycast import CasterFactory
 from .pictures import png_bytes, shade
 
 PICTURE_SIZE = (360, 360)
@@ -30,7 +31,7 @@ def moments(
     problem: Problem, source_frames: FloatArray, target_frames: FloatArray, chosen: Iterable[int]
 ) -> list[Moment]:
     """Pictures of the chosen frames (from 0) out of (F, Vs, 3) and (F, Vt, 3)."""
-    source, target = _Portrait(problem.source), _Portrait(problem.target)
+    source, target = (_Portrait(face, problem.make_caster) for face in (problem.source, problem.target))
     return [
         Moment(frame, source.picture(source_frames[frame]), target.picture(target_frames[frame])) for frame in chosen
     ]
@@ -48,7 +49,8 @@ def liveliest(neutral: FloatArray, frames: FloatArray, count: int = 6) -> list[i
 class _Portrait:
     """Takes pictures of one face from in front, all framed alike."""
 
-    def __init__(self, face: Face) -> None:
+    def __init__(self, face: Face, make_caster: CasterFactory) -> None:
+        self._make_caster = make_caster
         mesh = face.mesh
         self._faces = mesh.faces
         self._axes = _upright(face)
@@ -58,7 +60,8 @@ class _Portrait:
         self._frame = np.stack([seen.min(axis=0) - margin, seen.max(axis=0) + margin])
 
     def picture(self, vertices: FloatArray) -> bytes:
-        return png_bytes(shade(vertices @ self._axes.T, self._faces, PICTURE_SIZE, frame=self._frame))
+        upright = vertices @ self._axes.T
+        return png_bytes(shade(upright, self._faces, PICTURE_SIZE, frame=self._frame, make_caster=self._make_caster))
 
 
 def _upright(face: Face) -> FloatArray:
