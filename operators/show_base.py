@@ -22,7 +22,7 @@ class FACIAL_RETARGET_OT_show_base(OnTask, Operator):
 
         problem = read_problem(context)
         source, target = problem.source, problem.target
-        base = base_mesh(source.mesh, source.points, target.mesh, target.points, problem.base)
+        base = base_mesh(source.mesh, source.points, target.mesh, target.points, problem.base, problem.make_caster)
         task = context.scene.facial_retarget
         for thing in (task.source, task.target):
             show_base(thing, base.names, base.faces)

@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
+
 import numpy as np
 from mathutils.bvhtree import BVHTree
 
 from ..core.arrays import FloatArray
 from ..core.closest_point import closest_on_triangles
 from ..core.mesh import TriMesh
-from ..core.raycast import Hits
+from ..core.raycast import CasterFactory, EmbreeCaster, Hits
+
+
+def available_caster() -> CasterFactory:
+    """Embree where its wheel is installed, Blender's BVHTree elsewhere."""
+    return EmbreeCaster if find_spec("embreex") is not None else BVHCaster
 
 
 class BVHCaster:

@@ -13,6 +13,7 @@ from .examples import read_examples
 from .meshes import neutral_mesh
 from .performance import frame_kept, read_frame
 from .points import read_points
+from .raycast import available_caster
 
 
 def frame_range(context: Context) -> range:
@@ -22,7 +23,7 @@ def frame_range(context: Context) -> range:
     return range(chosen.frame_start, chosen.frame_end + 1)
 
 
-def require_faces(task: PropertyGroup) -> tuple[Object, Object]:
+def _chosen_faces(task: PropertyGroup) -> tuple[Object, Object]:
     """The task's source and target.
 
     Raises
@@ -45,7 +46,7 @@ def read_problem(context: Context) -> Problem:
     RetargetError : if something is missing or bad; says what, and on which object.
     """
     task = context.scene.facial_retarget
-    source, target = require_faces(task)
+    source, target = _chosen_faces(task)
     on_source, on_target = read_examples(task)
     neutral = None
     if task.source_neutral == "FRAME":
@@ -55,6 +56,7 @@ def read_problem(context: Context) -> Problem:
         source=_face(source, neutral_mesh(source, neutral), on_source),
         target=_face(target, neutral_mesh(target), on_target),
         base=None if task.base is None else read_base(task.base),
+        make_caster=available_caster(),
     )
 
 
