@@ -17,7 +17,7 @@ import numpy as np
 from facial_retarget_addon import demo, properties
 from facial_retarget_addon.bridge.background import finished
 from facial_retarget_addon.bridge.bake import write_frames
-from facial_retarget_addon.bridge.meshes import neutral_mesh, new_face, read_positions
+from facial_retarget_addon.bridge.meshes import neutral_mesh, new_face, read_polygons, read_positions
 from facial_retarget_addon.bridge.points import write_points
 from facial_retarget_addon.bridge.retargeting import retarget_steps
 from facial_retarget_addon.files.frames import read_frames
@@ -49,6 +49,7 @@ def main(folder: Path) -> None:
     for place, thing in enumerate(things):
         stand(thing, place)
     scene.facial_retarget.source, scene.facial_retarget.target = things[0], things[-1]
+    scene.facial_retarget.hierarchical.frames = "global"  # Suzanne's chin looks down: motion turns with the head only
     finished(retarget_steps(bpy.context))
 
     light(len(things))
@@ -67,7 +68,7 @@ def built_in(face: demo.DemoFace, frames: np.ndarray) -> bpy.types.Object:
     rgba = np.ones((len(face.colours), 4), np.float32)
     rgba[:, :3] = face.colours
     colours.data.foreach_set("color", rgba.ravel())
-    thing.data.materials.append(skin(face.name, colours.name))
+    thing.data.materials.append(material(face.name, (1, 1, 1, 1), colours.name))
     thing.rotation_euler.x = radians(90)  # the files' faces stand along Y, Blender's along Z
     write_points(thing, face.face.points)
     write_frames(thing, frames, first=1)
@@ -83,23 +84,28 @@ def suzanne() -> bpy.types.Object:
     thing = bpy.data.objects.new("Suzanne", fine)
     bpy.context.scene.collection.objects.link(thing)
     bpy.data.objects.remove(coarse)
-    fine.materials.append(skin("Suzanne", None))
-    write_points(thing, read_points(Path(__file__).with_name("suzanne_points.json"), neutral_mesh(thing)))
+    fine.shade_smooth()
+    mesh = neutral_mesh(thing)
+    points = read_points(Path(__file__).with_name("suzanne_points.json"), mesh)
+    write_points(thing, points)
+    part = mesh.components[read_polygons(fine)[1].reshape(-1, 4)[:, 0]]
+    for name, colour in (("Suzanne", (0.42, 0.27, 0.18, 1)), ("Suzanne's eyes", (0.8, 0.8, 0.75, 1))):
+        fine.materials.append(material(name, colour))
+    fine.polygons.foreach_set("material_index", (part != mesh.components[points.vertices[0, 0]]).astype(np.int32))
     return thing
 
 
-def skin(name: str, colours: str | None) -> bpy.types.Material:
-    """A soft material, with the colours of a vertex attribute if there is one."""
-    material = bpy.data.materials.new(name)
-    material.use_nodes = True
-    shader = material.node_tree.nodes["Principled BSDF"]
+def material(name: str, colour: tuple[float, float, float, float], attribute: str = "") -> bpy.types.Material:
+    """A soft material of one colour, or with the colours of a vertex attribute."""
+    made = bpy.data.materials.new(name)
+    shader = made.node_tree.nodes["Principled BSDF"]
     shader.inputs["Roughness"].default_value = 0.55
-    shader.inputs["Base Color"].default_value = (0.42, 0.27, 0.18, 1)
-    if colours is not None:
-        attribute = material.node_tree.nodes.new("ShaderNodeVertexColor")
-        attribute.layer_name = colours
-        material.node_tree.links.new(attribute.outputs["Color"], shader.inputs["Base Color"])
-    return material
+    shader.inputs["Base Color"].default_value = colour
+    if attribute:
+        colours = made.node_tree.nodes.new("ShaderNodeVertexColor")
+        colours.layer_name = attribute
+        made.node_tree.links.new(colours.outputs["Color"], shader.inputs["Base Color"])
+    return made
 
 
 def stand(thing: bpy.types.Object, place: int) -> None:
@@ -120,7 +126,7 @@ def light(count: int) -> None:
     camera.data.type, camera.data.ortho_scale = "ORTHO", count * SPACING
     camera.location = (0.5 * (count - 1) * SPACING, -10, 0)
     camera.rotation_euler.x = radians(90)
-    for name, angles, strength in (("key", (55, 0, -50), 3.2), ("fill", (75, 0, 45), 0.7)):
+    for name, angles, strength in (("key", (55, 0, -50), 2.6), ("fill", (75, 0, 45), 0.5)):
         sun = bpy.data.objects.new(name, bpy.data.lights.new(name, "SUN"))
         sun.rotation_euler = [radians(angle) for angle in angles]
         sun.data.energy, sun.data.angle = strength, radians(6)
@@ -128,8 +134,7 @@ def light(count: int) -> None:
     scene.collection.objects.link(camera)
     scene.camera = camera
     scene.world = bpy.data.worlds.new("room")
-    scene.world.use_nodes = True
-    scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.22, 0.22, 0.24, 1)
+    scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.16, 0.16, 0.18, 1)
     scene.render.engine, scene.cycles.device = "CYCLES", "CPU"
     scene.cycles.samples, scene.cycles.use_denoising = SAMPLES, False
     scene.render.resolution_x, scene.render.resolution_y = count * TILE, TILE
