@@ -16,6 +16,7 @@ import subprocess
 import sys
 import tomllib
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 ROOT = Path(__file__).resolve().parent
 SHIPPED = ("blender_manifest.toml", "LICENSE", "__init__.py", "facial_retarget_addon", "operators", "panels")
@@ -51,22 +52,13 @@ def main() -> None:
 
 def build(out: Path, platforms: list[str]) -> list[Path]:
     """Build one zip per platform into `out`; returns their paths."""
-    stage = ROOT / "build" / "extension"
-    shutil.rmtree(stage, ignore_errors=True)
-    stage.mkdir(parents=True)
-    for name in SHIPPED:
-        if (ROOT / name).is_dir():
-            shutil.copytree(ROOT / name, stage / name, ignore=shutil.ignore_patterns(*LEFT_OUT))
-        else:
-            shutil.copy2(ROOT / name, stage / name)
-    wheels = [wheel for name in platforms for wheel in fetch_wheels(name)]
-    (stage / "wheels").mkdir()
-    for wheel in wheels:
-        shutil.copy2(wheel, stage / "wheels" / wheel.name)
-    complete_manifest(stage / "blender_manifest.toml", platforms, wheels)
-
     out.mkdir(parents=True, exist_ok=True)
-    blender_tool("build", "--split-platforms", "--source-dir", str(stage), "--output-dir", str(out.resolve()))
+    wheels = [wheel for name in platforms for wheel in fetch_wheels(name)]
+    with TemporaryDirectory() as folder:
+        stage = Path(folder)
+        lay_out(stage, wheels)
+        complete_manifest(stage / "blender_manifest.toml", platforms, wheels)
+        blender_tool("build", "--split-platforms", "--source-dir", folder, "--output-dir", str(out.resolve()))
     manifest = tomllib.loads((ROOT / "blender_manifest.toml").read_text("utf-8"))
     stem = f"{manifest['id']}-{manifest['version']}"
     archives = [out / f"{stem}-{name.replace('-', '_')}.zip" for name in platforms]
@@ -103,6 +95,18 @@ def run_pip_download(folder: Path, requirement: str, tag: str, python: str) -> N
     arguments = ["--quiet", "--disable-pip-version-check", "--only-binary=:all:", "--no-deps"]
     arguments += ["--platform", tag, "--python-version", python, "--dest", str(folder), requirement]
     subprocess.run([sys.executable, "-m", "pip", "download", *arguments], check=True)
+
+
+def lay_out(stage: Path, wheels: list[Path]) -> None:
+    """Copy what ships into an empty folder."""
+    for name in SHIPPED:
+        if (ROOT / name).is_dir():
+            shutil.copytree(ROOT / name, stage / name, ignore=shutil.ignore_patterns(*LEFT_OUT))
+        else:
+            shutil.copy2(ROOT / name, stage / name)
+    (stage / "wheels").mkdir()
+    for wheel in wheels:
+        shutil.copy2(wheel, stage / "wheels" / wheel.name)
 
 
 def complete_manifest(path: Path, platforms: list[str], wheels: list[Path]) -> None:
