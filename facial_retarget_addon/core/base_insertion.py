@@ -11,8 +11,8 @@ from .closest_point import closest_on_triangles
 from .mesh import TriMesh
 from .placed_points import PlacedPoints
 
-_RIM = 0.02
-"""A point whose weight inside a border triangle is below this lies on the border or outside."""
+_RIM = 0.05
+"""A point whose weight inside a border triangle is below this, on any face, lies on the border or outside."""
 _UPRIGHT = 0.1
 """Triangles whose agreement with the surface is above this are fine."""
 _FOLD_COST = 0.1
@@ -33,7 +33,7 @@ def insert_points(faces: IntArray, rows: IntArray, placed: Sequence[PlacedPoints
 
     Returns
     -------
-    (F', 3); points on the border or outside are in no triangle.
+    (F', 3); points on the border, outside, or that would fold it over are in no triangle.
 
     References
     ----------
@@ -46,7 +46,9 @@ def insert_points(faces: IntArray, rows: IntArray, placed: Sequence[PlacedPoints
         split = np.concatenate([split, np.full((len(faces), 3, 1), row)], axis=2)
         upright = _worst(split.reshape(-1, 3), scaled).reshape(-1, 3).min(axis=1)
         best = int(np.argmin(gap + _FOLD_COST * (upright < _UPRIGHT)))
-        if not _on_border(faces, best, weights[best]):
+        folds = upright[best] < min(_UPRIGHT, _worst(faces[best : best + 1], scaled)[0])
+        # Inside, flips mend a fold; at the border there is nothing to flip with.
+        if not _on_border(faces, best, weights[best], 1.0 if folds else _RIM):
             faces = np.concatenate([np.delete(faces, best, axis=0), split[best]])
             faces = _flip_around(faces, row, scaled)
     return faces
@@ -63,22 +65,22 @@ def _worst(faces: IntArray, placed: Sequence[PlacedPoints]) -> FloatArray:
 
 
 def _nearest(faces: IntArray, row: int, placed: Sequence[PlacedPoints]) -> tuple[FloatArray, FloatArray]:
-    """Mean weights (F, 3) of the place in each triangle nearest to a point, and the summed squared distance (F,)."""
-    weights = np.zeros((len(faces), 3))
+    """Least weights (F, 3) of the place in each triangle nearest to a point, and the summed squared distance (F,)."""
+    weights = np.ones((len(faces), 3))
     gap = np.zeros(len(faces))
     for p in placed:
         corners, point = p.positions[faces], p.positions[row]
         here = closest_on_triangles(np.broadcast_to(point, (len(faces), 3)), corners)
-        weights += here / len(placed)
+        np.minimum(weights, here, out=weights)
         gap += ((np.einsum("fk,fkc->fc", here, corners) - point) ** 2).sum(axis=1)
     return weights, gap
 
 
-def _on_border(faces: IntArray, face: int, weights: FloatArray) -> bool:
-    """Whether a place touches a boundary edge of its triangle."""
+def _on_border(faces: IntArray, face: int, weights: FloatArray, rim: float) -> bool:
+    """Whether a place's weight across a boundary edge of its triangle is below `rim`."""
     for k in range(3):
         a, b = faces[face, k], faces[face, (k + 1) % 3]
-        if len(_touching(faces, a, b)) == 1 and weights[(k + 2) % 3] < _RIM:
+        if len(_touching(faces, a, b)) == 1 and weights[(k + 2) % 3] < rim:
             return True
     return False
 

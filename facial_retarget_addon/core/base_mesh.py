@@ -51,12 +51,14 @@ class BaseMesh:
     names : (B,) the points used, in the order of the rows.
     faces : (F, 3) rows, counter-clockwise seen from outside.
     loops : boundary loops, the outer one first.
-    warnings : what an artist should look at: points left out, triangles that fold over.
+    left_out : common points that are in no triangle: they guide the correspondence only.
+    warnings : what an artist should look at: points of an own set left out, triangles that fold over.
     """
 
     names: tuple[str, ...]
     faces: IntArray
     loops: tuple[BaseLoop, ...]
+    left_out: tuple[str, ...]
     warnings: tuple[str, ...]
 
 
@@ -92,7 +94,7 @@ def base_mesh(
         PlacedPoints.on(source_mesh, source_points.subset(names)),
         PlacedPoints.on(target_mesh, target_points.subset(names)),
     ]
-    left_out: list[str] = []
+    warnings: list[str] = []
     if triangles is None and len(names) < MINIMUM_POINTS:
         raise RetargetError(
             f"source and target have {len(names)} feature points in common, "
@@ -106,20 +108,22 @@ def base_mesh(
         standard = next((t for t in STANDARD if {n for corner in t for n in corner} <= set(names)), None)
         if standard is None:
             rows = dual_triangulation(source_mesh, source_points.subset(names), make_caster)
+            lost = [names[k] for k in np.setdiff1d(np.arange(len(names)), rows)]
+            if lost:
+                warnings.append(f"feature points {', '.join(lost)} lie outside the base and are not part of it")
         else:
             rows = _rows(standard, names)
             extra = np.setdiff1d(np.arange(len(names)), rows)
             rows = insert_points(rows, extra, faces_of)
-        left_out = [names[k] for k in np.setdiff1d(np.arange(len(names)), rows)]
     _check_manifold(rows, names)
     used = np.unique(rows)
     compact = np.searchsorted(used, rows)
     kept = tuple(names[k] for k in used)
-    warnings = [f"feature points {', '.join(left_out)} lie outside the base and are not part of it"] if left_out else []
+    left_out = tuple(names[k] for k in np.setdiff1d(np.arange(len(names)), used))
     for face, which in zip(faces_of, ("source", "target"), strict=True):
         warnings += _folds(face, rows, names, which)
     loops = _loops(faces_of[0].positions[used], compact, kept)
-    return BaseMesh(kept, compact, loops, tuple(warnings))
+    return BaseMesh(kept, compact, loops, left_out, tuple(warnings))
 
 
 def _rows(triangles: Sequence[tuple[str, str, str]], names: Sequence[str]) -> IntArray:

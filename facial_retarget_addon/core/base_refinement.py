@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from .arrays import BoolArray, FloatArray, IntArray
@@ -49,7 +51,7 @@ def refine_base(
     faces = insert_points(base.faces, rows, placed)
     kept = np.unique(faces)
     chosen = [on_source.names[k] for k in kept]
-    refined = BaseMesh(tuple(chosen), np.searchsorted(kept, faces), base.loops, base.warnings)
+    refined = replace(base, names=tuple(chosen), faces=np.searchsorted(kept, faces))
     return refined, on_source.subset(chosen), on_target.subset(chosen)
 
 

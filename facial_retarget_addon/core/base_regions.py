@@ -52,9 +52,7 @@ class _Skin(NamedTuple):
     between: FloatArray
 
 
-def dual_triangulation(
-    mesh: TriMesh, points: FeaturePoints, make_caster: CasterFactory = EmbreeCaster
-) -> IntArray:
+def dual_triangulation(mesh: TriMesh, points: FeaturePoints, make_caster: CasterFactory = EmbreeCaster) -> IntArray:
     """Triangulation of feature points whose edges join neighbouring regions of the skin.
 
     Returns

@@ -234,9 +234,7 @@ class _Builder:
             positions[vertices] = curve.point[rows]
             places.put(vertices, curve, rows)
 
-    def _pierce(
-        self, predicted: TriMesh, neighbours: sp.csr_matrix, places: _Places
-    ) -> tuple[FloatArray, BoolArray]:
+    def _pierce(self, predicted: TriMesh, neighbours: sp.csr_matrix, places: _Places) -> tuple[FloatArray, BoolArray]:
         """Offsets (N,) of the first look, and what it missed."""
         inner = np.flatnonzero(places.face < 0)
         edges = edge_lengths_around(neighbours, predicted.vertices)

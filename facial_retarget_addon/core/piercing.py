@@ -29,9 +29,7 @@ class Pierced(NamedTuple):
     weights: FloatArray
 
 
-def pierce(
-    mesh: TriMesh, caster: RayCaster, origins: FloatArray, normals: FloatArray, edges: FloatArray
-) -> Pierced:
+def pierce(mesh: TriMesh, caster: RayCaster, origins: FloatArray, normals: FloatArray, edges: FloatArray) -> Pierced:
     """Nearest admissible hit along the normal, either way.
 
     Real faces have other sheets near (lips, lids, the back of the head): a hit counts only where the surface faces

@@ -389,7 +389,11 @@ def _report(pair: Pair, binding: Binding) -> dict[str, Any]:
         "source": {"vertices": len(pair.source.vertices), "faces": len(pair.source.faces)},
         "target": {"vertices": len(pair.target.vertices), "faces": len(pair.target.faces)},
         "scale": pair.similarity.scale,
-        "base": {"points": len(pair.base.names), "triangles": len(pair.base.faces)},
+        "base": {
+            "points": len(pair.base.names),
+            "triangles": len(pair.base.faces),
+            "points_outside": list(pair.base.left_out),
+        },
         "coverage": float(areas @ (binding.inside >= 1) / areas.sum()),
         "matched": float(areas @ (pair.correspondence.confidence > 0) / areas.sum()),
         "levels": levels,
