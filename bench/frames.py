@@ -10,6 +10,7 @@ from facial_retarget_addon import demo
 from facial_retarget_addon.core.methods import hierarchical
 from facial_retarget_addon.core.methods.settings import HierarchicalSettings
 from facial_retarget_addon.core.normal_synthesis import NormalSynthesis
+from facial_retarget_addon.core.pair import prepare_pair
 
 from .deformation_transfer import DeformationTransfer
 from .faces import pair, problem
@@ -26,7 +27,7 @@ def rows() -> Iterator[Row]:
 
 
 def _reconstruction() -> Iterator[Row]:
-    fitted = hierarchical.prepare_pair(problem(), HierarchicalSettings(levels=5, base_points=4))
+    fitted = prepare_pair(problem(), levels=5, base_points=4)
     normal = fitted.target_normal
     synthesis = NormalSynthesis(normal)
     base = np.repeat(normal.base[None], 4, axis=0).astype(np.float32)

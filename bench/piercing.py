@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import bpy  # noqa: F401  (brings mathutils)
 import numpy as np
 from mathutils import Vector
 from mathutils.bvhtree import BVHTree
 
 from facial_retarget_addon.core.mesh import TriMesh
-from facial_retarget_addon.core.methods.hierarchical import prepare_pair
-from facial_retarget_addon.core.methods.settings import HierarchicalSettings
+from facial_retarget_addon.core.pair import prepare_pair
 from facial_retarget_addon.core.raycast import EmbreeCaster
 
 from .faces import problem
@@ -19,7 +19,7 @@ from .timing import Row, medians
 
 def rows() -> Iterator[Row]:
     """Seconds for both directions of every vertex of level 4, and their ratio."""
-    pair = prepare_pair(problem(), HierarchicalSettings())
+    pair = prepare_pair(problem(), levels=4, base_points=105)
     mesh = pair.source
     normal = pair.source_normal
     predicted = normal.steps[-1].matrix @ normal.levels[-2].positions

@@ -42,14 +42,16 @@ def insert_points(faces: IntArray, rows: IntArray, placed: Sequence[PlacedPoints
     scaled = [PlacedPoints(p.positions / _mean_edge(p.positions, faces), p.normals) for p in placed]
     for row in rows.tolist():
         weights, gap = _nearest(faces, row, scaled)
-        split = np.stack([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]], axis=1)
-        split = np.concatenate([split, np.full((len(faces), 3, 1), row)], axis=2)
+        near = np.flatnonzero(gap <= gap.min() + _FOLD_COST)
+        split = np.stack([faces[near][:, [0, 1]], faces[near][:, [1, 2]], faces[near][:, [2, 0]]], axis=1)
+        split = np.concatenate([split, np.full((len(near), 3, 1), row)], axis=2)
         upright = _worst(split.reshape(-1, 3), scaled).reshape(-1, 3).min(axis=1)
-        best = int(np.argmin(gap + _FOLD_COST * (upright < _UPRIGHT)))
-        folds = upright[best] < min(_UPRIGHT, _worst(faces[best : best + 1], scaled)[0])
+        chosen = int(np.argmin(gap[near] + _FOLD_COST * (upright < _UPRIGHT)))
+        best = int(near[chosen])
+        folds = upright[chosen] < min(_UPRIGHT, _worst(faces[best : best + 1], scaled)[0])
         # Inside, flips mend a fold; at the border there is nothing to flip with.
         if not _on_border(faces, best, weights[best], 1.0 if folds else _RIM):
-            faces = np.concatenate([np.delete(faces, best, axis=0), split[best]])
+            faces = np.concatenate([np.delete(faces, best, axis=0), split[chosen]])
             faces = _flip_around(faces, row, scaled)
     return faces
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .arrays import FloatArray, IntArray, unit_vectors
+from .arrays import FloatArray, IntArray, cross, unit_vectors
 from .mesh import TriMesh
 from .points import FeaturePoints
 
@@ -26,5 +26,6 @@ class PlacedPoints:
     def agreement(self, faces: IntArray) -> FloatArray:
         """(F,) dot product of each triangle's normal and the surface normals at its corners; below 0 it folds over."""
         mean = unit_vectors(self.normals[faces].mean(axis=1))
-        dots: FloatArray = np.einsum("fi,fi->f", TriMesh(self.positions, faces).face_normals, mean)
+        a, b, c = (self.positions[faces[:, k]] for k in range(3))
+        dots: FloatArray = np.einsum("fi,fi->f", unit_vectors(cross(b - a, c - a)), mean)
         return dots

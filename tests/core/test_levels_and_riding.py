@@ -47,7 +47,8 @@ class TestLevels:
         return tuple(sp.random(*shape, 0.2, "csr", rng=rng) for shape in shapes)
 
     def test_strengths_of_one_change_nothing(self, steps: list[Level], parts: tuple[sp.csr_matrix, ...]) -> None:
-        assert scale_levels(*parts, np.ones(40), steps, [1, 1, 1], 1.0) is parts[0]
+        scaled = scale_levels(*parts, np.linspace(0, 1, 40), steps, [1, 1, 1], 1.0)
+        np.testing.assert_allclose(scaled.toarray(), parts[0].toarray(), atol=1e-12)
 
     def test_equal_strengths_scale_everything(self, steps: list[Level], parts: tuple[sp.csr_matrix, ...]) -> None:
         scaled = scale_levels(*parts, np.linspace(0, 1, 40), steps, [0.3, 0.3, 0.3], 0.3)

@@ -1,0 +1,214 @@
+"""Two faces on one base: what every multiresolution method starts from."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import scipy.sparse as sp
+
+from .arrays import FloatArray, IntArray, Progress, no_progress, unit_vectors
+from .base_mesh import BaseMesh, base_mesh
+from .base_refinement import inside_base, refine_base
+from .base_regions import eye_separation
+from .binding import Binding, bind
+from .carry import LinearMotion, local_turns
+from .correspondence import Correspondence, correspond, places_on_source
+from .mesh import TriMesh
+from .methods.base import Problem
+from .normal_mesh import NormalLevel, NormalMesh, build_normal_mesh
+from .points import FeaturePoints, common_names, place_matrix
+from .raycast import CasterFactory
+from .rigid import Similarity, fit_similarity
+from .source_reader import SourceReader
+from .subdivision import Level, hierarchy
+
+_REACH = 0.5
+"""Eye separations beyond the base's border over which its own motion fades into the carried one."""
+
+
+@dataclass(frozen=True, eq=False)
+class Pair:
+    """Two faces, their correspondence, and their normal meshes over one base.
+
+    Attributes
+    ----------
+    source_points, target_points : the base's points, in the base's order.
+    similarity : source to target.
+    source_separation, target_separation : distance of the eyes, in each face's units.
+    steps : subdivision steps of the base, one per level.
+    """
+
+    source: TriMesh
+    target: TriMesh
+    source_points: FeaturePoints
+    target_points: FeaturePoints
+    base: BaseMesh
+    correspondence: Correspondence
+    similarity: Similarity
+    source_separation: float
+    target_separation: float
+    steps: Sequence[Level]
+    source_normal: NormalMesh
+    target_normal: NormalMesh
+    make_caster: CasterFactory
+
+    @property
+    def source_base(self) -> FloatArray:
+        """(B, 3) neutral base vertices of the source."""
+        return self.source_normal.base
+
+    @property
+    def target_base(self) -> FloatArray:
+        """(B, 3) neutral base vertices of the target."""
+        return self.target_normal.base
+
+    @property
+    def finest(self) -> NormalLevel:
+        """The target's finest level."""
+        return self.target_normal.levels[-1]
+
+    @cached_property
+    def carry(self) -> sp.csr_matrix:
+        """(Vt, Vs) takes source displacements to the target's vertices."""
+        return self.correspondence.matrix(self.source.faces, len(self.source.vertices))
+
+    @cached_property
+    def fine_places(self) -> sp.csr_matrix:
+        """(N, Vt) takes values of the target's vertices to the places of its finest level."""
+        corners = self.target.faces[self.finest.place_face]
+        return place_matrix(corners, self.finest.place_weights, len(self.target.vertices))
+
+    @cached_property
+    def fine_carry(self) -> sp.csr_matrix:
+        """(N, Vs) takes source displacements to the target's finest level, each vertex at its own counterpart."""
+        corners, weights = places_on_source(
+            self.correspondence,
+            self.source,
+            self.target,
+            self.target.faces[self.finest.place_face],
+            self.finest.place_weights,
+        )
+        return place_matrix(corners, weights, len(self.source.vertices))
+
+    @cached_property
+    def binding(self) -> Binding:
+        """The target's vertices riding on its finest level."""
+        carrier = TriMesh(self.finest.positions, self.finest.faces)
+        return bind(self.target, self.correspondence.face >= 0, carrier, _REACH * self.target_separation)
+
+    @cached_property
+    def counterpart(self) -> IntArray:
+        """(Vt,) nearest source vertex of each target vertex's counterpart, -1 for none."""
+        found = self.correspondence
+        corner = self.source.faces[found.face][np.arange(len(found.face)), found.weights.argmax(axis=1)]
+        return np.where((found.face >= 0) & (found.confidence > 0), corner, -1)
+
+    def linear_motion(self, matrix: sp.csr_matrix, places: FloatArray, local: bool) -> LinearMotion:
+        """Motion of target places (V, 3) that a matrix (V, Vs) takes from the source.
+
+        local : turn with the surface around each place, not with the heads as a whole.
+        """
+        return LinearMotion(matrix, self.source.vertices, self.similarity, self.turns(places) if local else None)
+
+    def turns(self, places: FloatArray) -> FloatArray:
+        """(V, 3, 3) rotations of the motion at places (V, 3) of the target."""
+        before = unit_vectors(self.source_points.positions(self.source.vertex_normals))
+        after = unit_vectors(self.target_points.positions(self.target.vertex_normals))
+        return local_turns(before, after, self.target_base, self.target_separation, places, self.similarity.rotation)
+
+    def reader(self, pierce: bool) -> SourceReader:
+        """Reads the source's frames; `pierce` pierces every one anew."""
+        return SourceReader(
+            self.source,
+            self.source_points,
+            self.base.loops,
+            self.steps,
+            self.source_normal,
+            pierce,
+            self.make_caster,
+        )
+
+    def report(self) -> dict[str, Any]:
+        """Figures of the fit, as plain data."""
+        areas = self.target.vertex_areas
+        covered = inside_base(self.base, self.target, self.target_points)
+        levels = [
+            {
+                "level": level + 1,
+                "vertices": len(ours.positions),
+                "source_piercing_errors": ours.piercing_errors,
+                "target_piercing_errors": theirs.piercing_errors,
+            }
+            for level, (ours, theirs) in enumerate(
+                zip(self.source_normal.levels, self.target_normal.levels, strict=True)
+            )
+        ]
+        still = [
+            {"vertices": len(component), "first_vertex": int(component[0])}
+            for component in self.correspondence.still_components
+        ]
+        warnings = list(self.base.warnings)
+        if still:
+            total = sum(part["vertices"] for part in still)
+            warnings.append(f"{len(still)} parts of the target ({total} vertices) hold no feature point and stay put")
+        return {
+            "source": {"vertices": len(self.source.vertices), "faces": len(self.source.faces)},
+            "target": {"vertices": len(self.target.vertices), "faces": len(self.target.faces)},
+            "scale": self.similarity.scale,
+            "base": {
+                "points": len(self.base.names),
+                "triangles": len(self.base.faces),
+                "points_outside": list(self.base.left_out),
+            },
+            "coverage": float(areas @ covered / areas.sum()),
+            "matched": float(areas @ (self.correspondence.confidence > 0) / areas.sum()),
+            "levels": levels,
+            "still_components": still,
+            "warnings": warnings,
+        }
+
+
+def prepare_pair(problem: Problem, levels: int, base_points: int, progress: Progress = no_progress) -> Pair:
+    """Correspondence, base mesh and normal meshes of two faces.
+
+    Parameters
+    ----------
+    levels : of the normal meshes.
+    base_points : wanted in the base; what the given points lack is added between them.
+
+    Raises
+    ------
+    RetargetError : if the points do not span a base mesh; names what to change.
+    """
+    source, target = problem.source.mesh, problem.target.mesh
+    names = common_names(problem.source.points, problem.target.points)
+    on_source, on_target = problem.source.points.subset(names), problem.target.points.subset(names)
+    found = correspond(source, on_source, target, on_target, lambda share, what: progress(0.5 * share, what))
+    similarity = fit_similarity(on_source.positions(source.vertices), on_target.positions(target.vertices))
+    separations = eye_separation(source, on_source), eye_separation(target, on_target)
+    progress(0.5, "making the base mesh")
+    base = base_mesh(source, on_source, target, on_target, problem.base, problem.make_caster)
+    base, on_source, on_target = refine_base(base, source, on_source, target, on_target, found, base_points)
+    steps = hierarchy(base.faces, len(base.names), levels)
+    progress(0.7, "piercing the source")
+    source_normal = build_normal_mesh(source, on_source, base.loops, steps, problem.make_caster)
+    progress(0.85, "piercing the target")
+    target_normal = build_normal_mesh(target, on_target, base.loops, steps, problem.make_caster)
+    return Pair(
+        source,
+        target,
+        on_source,
+        on_target,
+        base,
+        found,
+        similarity,
+        *separations,
+        steps,
+        source_normal,
+        target_normal,
+        problem.make_caster,
+    )
