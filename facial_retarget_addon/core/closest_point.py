@@ -116,8 +116,6 @@ _NEIGHBOURS = 24
 _FIRST = 6
 _OCTANT = np.array([1, 2, 4])
 _BLOCK = 1 << 21
-_WORKERS = -1
-"""Threads of a tree query: all processors."""
 
 
 class _Pieces:
@@ -196,7 +194,7 @@ class _Search:
             left = []
             for rows in _blocks(active, max(1, _BLOCK // take)):
                 distance, rank = pieces.tree.query(
-                    self._points[rows], k=np.arange(done + 1, take + 1), workers=_WORKERS
+                    self._points[rows], k=np.arange(done + 1, take + 1)
                 )
                 untried = self._improve(pieces, rows, distance, rank)
                 unseen = distance[:, -1] - pieces.largest
@@ -211,7 +209,7 @@ class _Search:
         """Try every piece that may hold a closer place for the points `rows`, which have a bound."""
         for some in _blocks(rows, 4096):
             reach = self._best[some] + pieces.largest
-            near = pieces.tree.query_ball_point(self._points[some], reach, workers=_WORKERS, return_sorted=False)
+            near = pieces.tree.query_ball_point(self._points[some], reach, return_sorted=False)
             size = np.fromiter(map(len, near), np.int64, len(some))
             rank = np.fromiter(chain.from_iterable(near), np.int64, int(size.sum()))
             query, face = np.repeat(some, size), pieces.face[rank]
