@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import replace
 from math import radians
 from pathlib import Path
+from typing import TypeVar
 
 import bpy
 from bpy.types import Context, Object
 
 from ..core.errors import RetargetError
-from ..core.methods.base import Face
+from ..core.methods.base import Face, Problem
 from ..files.base_mesh import write_base_mesh
 from ..files.frames import write_frames as write_frames_file
 from ..files.job import ExampleFiles, FaceFiles, Job, OutputFiles, read_job, write_job
@@ -17,6 +20,7 @@ from ..files.mesh_file import MeshFile
 from ..files.meshes import write_mesh
 from ..files.points import write_points as write_points_file
 from ..files.run import read_inputs
+from ..files.whole import Aside, written_whole
 from .background import Steps, part
 from .bake import write_frames
 from .base_object import show_triangles
@@ -27,46 +31,71 @@ from .points import write_points
 from .settings import read_task_settings, write_task_settings
 from .task import frame_range, read_problem
 
+T = TypeVar("T")
+
 
 def save_job_steps(context: Context, path: Path) -> Steps[None]:
-    """Save the scene's task: faces, points, examples and frames first, the job file last.
+    """Save the scene's task: a job file with its faces, points, examples and frames beside it, together or not at all.
 
     Raises
     ------
     RetargetError : for anything that the task lacks, or if the system refuses to write.
     """
     task = context.scene.facial_retarget
-    problem = read_problem(context)
-    settings = read_task_settings(task)
+    problem, settings = read_problem(context), read_task_settings(task)
     frames = yield from part(read_frames(context, task.source, frame_range(context)), 0.0, 0.8)
     yield 0.8, "Writing"
-
-    def beside(name: str) -> Path:
-        return path.with_name(f"{path.stem}_{name}")
-
-    faces = {}
-    for role, thing, face in (("source", task.source, problem.source), ("target", task.target, problem.target)):
-        files = faces[role] = FaceFiles(beside(f"{role}.obj"), beside(f"{role}_points.json"))
-        write_mesh(read_face(thing, face.mesh.vertices), files.neutral)
-        write_points_file(face.points, files.points)
-    moving = FaceFiles(faces["source"].neutral, faces["source"].points, beside("source_frames.npz"))
-    write_frames_file(frames, moving.frames)
-    base = None
-    if problem.base is not None:
-        base = beside("base.json")
-        write_base_mesh(problem.base, base)
-    examples = []
-    for number, name in enumerate(problem.source.examples, start=1):
-        files = ExampleFiles(name, beside(f"example_{number}_source.npz"), beside(f"example_{number}_target.npz"))
-        _write_example(problem.source, name, files.source)
-        _write_example(problem.target, name, files.target)
-        examples.append(files)
-    output = OutputFiles(_chosen(task.output) or beside("target_frames.npz"), _chosen(task.report), _chosen(task.page))
-    write_job(Job(task.method, moving, faces["target"], tuple(examples), settings, output, base, path), path)
+    with written_whole() as aside:
+        files = _Beside(path, aside)
+        source, target = (
+            files.face("source", task.source, problem.source),
+            files.face("target", task.target, problem.target),
+        )
+        base = None if problem.base is None else files.add("base.json", write_base_mesh, problem.base)
+        job = Job(
+            task.method,
+            replace(source, frames=files.add("source_frames.npz", write_frames_file, frames)),
+            target,
+            tuple(files.example(problem, name) for name in problem.source.examples),
+            settings,
+            OutputFiles(
+                _chosen(task.output) or files.path("target_frames.npz"), _chosen(task.report), _chosen(task.page)
+            ),
+            base,
+            path,
+        )
+        write_job(job, aside.place(path))
 
 
-def _write_example(face: Face, name: str, path: Path) -> None:
-    write_mesh(MeshFile.from_mesh(face.mesh.with_vertices(face.examples[name])), path)
+class _Beside:
+    """Writes files beside a job file, named after it."""
+
+    def __init__(self, job: Path, aside: Aside) -> None:
+        self._job, self._aside = job, aside
+
+    def path(self, name: str) -> Path:
+        return self._job.with_name(f"{self._job.stem}_{name}")
+
+    def add(self, name: str, write: Callable[[T, Path], None], content: T) -> Path:
+        """Write one file; returns where it will appear."""
+        write(content, self._aside.place(self.path(name)))
+        return self.path(name)
+
+    def face(self, role: str, thing: Object, face: Face) -> FaceFiles:
+        neutral = self.add(f"{role}.obj", write_mesh, read_face(thing, face.mesh.vertices))
+        return FaceFiles(neutral, self.add(f"{role}_points.json", write_points_file, face.points))
+
+    def example(self, problem: Problem, name: str) -> ExampleFiles:
+        number = 1 + list(problem.source.examples).index(name)
+        source, target = (
+            self.add(
+                f"example_{number}_{role}.npz",
+                write_mesh,
+                MeshFile.from_mesh(face.mesh.with_vertices(face.examples[name])),
+            )
+            for role, face in (("source", problem.source), ("target", problem.target))
+        )
+        return ExampleFiles(name, source, target)
 
 
 def _chosen(path: str) -> Path | None:
@@ -90,6 +119,7 @@ def load_job(context: Context, path: Path, up: str) -> None:
     problem = inputs.problem
     for face in (problem.source, problem.target):
         _check_examples(face)
+        face.points.index({name for corners in problem.base or () for name in corners})
 
     task = context.scene.facial_retarget
     task.source = _make_face(job.source.neutral.stem, inputs.source, problem.source, up)

@@ -65,12 +65,14 @@ for path, again in zip(first.inputs().values(), second.inputs().values(), strict
 
 # A bad job leaves the scene as it was.
 text = (folder / "first.toml").read_text()
+part("files.base_mesh").write_base_mesh((("a", "b", "nowhere"),), folder / "strange_base.json")
 for number, (old, new, *words) in enumerate(
     (
         ("levels = 3", "levels = 99", "levels", "99"),
         ("first_source.obj", "missing.obj", "missing.obj"),
         ("first_example_1_target.npz", "first_example_1_source.npz", "'joy'", "36", "64"),
         ("first_source_frames.npz", "first_example_1_source.npz", "'frames'"),
+        ("first_base.json", "strange_base.json", "'nowhere'"),
     )
 ):
     assert old in text, old
@@ -79,3 +81,14 @@ for number, (old, new, *words) in enumerate(
         bpy.ops.facial_retarget.load_job(filepath=str(folder / f"bad{number}.toml"))
 with refused("no/such"):
     bpy.ops.facial_retarget.save_job(filepath=str(folder / "no/such/folder/job.toml"))
+
+# A disk that refuses leaves nothing behind, and an earlier job as it was.
+before = {path.name: path.read_bytes() for path in folder.iterdir()}
+(folder / "second_target_points.json").unlink()
+(folder / "second_target_points.json").mkdir()
+bpy.context.scene.facial_retarget.hierarchical.levels = 1
+with refused("second_target_points.json"):
+    bpy.ops.facial_retarget.save_job(filepath=str(folder / "second.toml"))
+(folder / "second_target_points.json").rmdir()
+del before["second_target_points.json"]
+assert {path.name: path.read_bytes() for path in folder.iterdir()} == before

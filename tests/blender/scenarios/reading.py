@@ -42,6 +42,13 @@ assert abs(moved[-1, :6]).max() > 2.9
 assert abs(moved[:, 6:]).max() < 1e-6
 assert abs(moved[0]).max() < 1e-6
 
+# A cache's neutral is how it looks at one frame.
+task = context.scene.facial_retarget
+task.source, task.target, task.source_neutral, task.neutral_frame = face, grid("other"), "FRAME", 2
+assert np.array_equal(part("bridge.task").read_problem(context).source.mesh.vertices, read(2, 2)[0].astype(np.float64))
+task.source_neutral = "BASIS"
+assert np.array_equal(part("bridge.task").read_problem(context).source.mesh.vertices, meshes.read_positions(face.data))
+
 # Stopping half-way puts the frame back.
 steps = performance.read_frames(context, face, range(1, 5))
 next(steps)
