@@ -197,6 +197,9 @@ class _Search:
                     self._points[rows], k=np.arange(done + 1, take + 1)
                 )
                 untried = self._improve(pieces, rows, distance, rank)
+                # Two tries may both lie beyond the limit while a third does not.
+                again = (self._face[rows] < 0) & (untried < self._best[rows])
+                self._try_all(rows[again], pieces.face[rank[again]])
                 unseen = distance[:, -1] - pieces.largest
                 unbound = self._face[rows] < 0
                 left.append(rows[unbound & (unseen < self._best[rows])])
@@ -219,6 +222,14 @@ class _Search:
                 agree = _dot(self._mesh.face_normals[face[may]], self._normals[query[may]]) >= self._agreement
                 may = may[agree]
             self._try(query[may], face[may])
+
+    def _try_all(self, rows: IntArray, faces: IntArray) -> None:
+        """Try every agreeing one of the faces (N, K) for the points `rows` (N,)."""
+        query, face = np.repeat(rows, faces.shape[1]), faces.ravel()
+        if self._normals is not None:
+            agree = _dot(self._mesh.face_normals[face], self._normals[query]) >= self._agreement
+            query, face = query[agree], face[agree]
+        self._try(query, face)
 
     def _improve(self, pieces: _Pieces, rows: IntArray, distance: FloatArray, rank: IntArray) -> FloatArray:
         """Try the two nearest agreeing ones of the pieces `rank` (N, K); the least distance of the others, (N,)."""
