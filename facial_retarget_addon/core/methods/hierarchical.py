@@ -121,10 +121,8 @@ def fit(problem: Problem, settings: HierarchicalSettings, progress: Progress = n
     pair = prepare_pair(problem, settings.levels, settings.base_points, lambda share, what: progress(0.9 * share, what))
     examples = read_examples(problem, pair)
     progress(0.9, "preparing the motion")
-    if settings.variant == "paper":
-        retargeter = _paper(pair, settings, examples)
-    else:
-        retargeter = _default(pair, settings, examples)
+    variant = _paper if settings.variant == "paper" else _default
+    retargeter = variant(pair, settings, examples)
     progress(1.0, "fitted")
     return retargeter
 
