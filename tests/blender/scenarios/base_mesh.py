@@ -12,7 +12,7 @@ demo, meshes, points, base_object = (
     part("bridge.base_object"),
 )
 task = bpy.context.scene.facial_retarget
-for role, face in (("source", demo.actor()), ("target", demo.targets()[1])):
+for role, face in (("source", demo.actor(12_000)), ("target", demo.targets()[1])):
     file = part("files.mesh_file").MeshFile(face.face.mesh, face.counts, face.corners)
     setattr(task, role, meshes.new_face(face.name, file))
     points.write_points(getattr(task, role), face.face.points)

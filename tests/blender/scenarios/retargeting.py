@@ -18,11 +18,11 @@ meshes, points, examples, bake = (part(f"bridge.{name}") for name in ("meshes", 
 retargeting, background = part("bridge.retargeting"), part("bridge.background")
 demo = part("demo")
 
-# The actor and the ape on the scene, a few frames of the performance, and two of the examples.
+# The actor and a warped one of another topology on the scene, a few frames of the performance, and two of the examples.
 FIRST, COUNT = 11, 4
-actor, ape = demo.actor(), demo.targets()[0]
+actor, warped = demo.actor(12_000), demo.warped_actor(np.random.default_rng(1), 9_000)
 task = context.scene.facial_retarget
-for role, face in (("source", actor), ("target", ape)):
+for role, face in (("source", actor), ("target", warped)):
     file = part("files.mesh_file").MeshFile(face.face.mesh, face.counts, face.corners, face.uvs[face.corners])
     thing = meshes.new_face(face.name, file)
     setattr(task, role, thing)
