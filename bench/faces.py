@@ -7,8 +7,8 @@ from functools import cache
 import numpy as np
 
 from facial_retarget_addon import demo
-from facial_retarget_addon.core.methods.base import Face, Problem
 from facial_retarget_addon.core.points import FeaturePoints
+from facial_retarget_addon.core.problem import Face, Problem
 
 SOURCE_VERTICES, TARGET_VERTICES, POINTS = 26_000, 20_000, 100
 

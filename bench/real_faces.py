@@ -10,8 +10,8 @@ import numpy as np
 
 from facial_retarget_addon.core.arrays import BoolArray, FloatArray
 from facial_retarget_addon.core.mesh import TriMesh
-from facial_retarget_addon.core.methods.base import Face, Problem
 from facial_retarget_addon.core.methods.settings import HierarchicalSettings
+from facial_retarget_addon.core.problem import Face, Problem
 from facial_retarget_addon.core.retarget import retarget
 from facial_retarget_addon.files.points import read_points
 

@@ -12,8 +12,8 @@ from facial_retarget_addon import demo
 from facial_retarget_addon.core.arrays import FloatArray
 from facial_retarget_addon.core.mesh import TriMesh
 from facial_retarget_addon.core.methods import hierarchical
-from facial_retarget_addon.core.methods.base import Face, Problem
 from facial_retarget_addon.core.methods.settings import HierarchicalSettings
+from facial_retarget_addon.core.problem import Face, Problem
 
 from .timing import Row
 

@@ -12,7 +12,7 @@ import bpy
 from bpy.types import Context, Object
 
 from ..core.errors import RetargetError
-from ..core.methods.base import Face, Problem
+from ..core.problem import Face, Problem
 from ..files.base_mesh import write_base_mesh
 from ..files.frames import write_frames as write_frames_file
 from ..files.job import ExampleFiles, FaceFiles, Job, OutputFiles, read_job, write_job

@@ -9,9 +9,7 @@ import bpy
 from bpy.types import Context, PropertyGroup
 
 from ..core.arrays import FloatArray, Progress
-from ..core.checks import faults, warnings
-from ..core.errors import RetargetError
-from ..core.methods.base import Problem
+from ..core.problem import Problem
 from ..core.retarget import Result, retarget
 from ..files.report import report_json, report_page
 from ..files.whole import written_whole
@@ -41,11 +39,7 @@ def retarget_steps(context: Context) -> Steps[dict[str, Any]]:
     source = yield from part(read_frames(context, task.source, frames), 0.0, READING)
 
     def compute(progress: Progress) -> Result:
-        if wrong := faults(problem, source, settings):
-            raise RetargetError("; ".join(wrong))
-        result = retarget(method, problem, settings, source, progress)
-        noticed = warnings(problem, source, settings)
-        return Result(result.frames, {**result.report, "warnings": [*noticed, *result.report.get("warnings", [])]})
+        return retarget(method, problem, settings, source, progress)
 
     result = yield from part(in_thread(compute), READING, COMPUTING)
     yield READING + COMPUTING, "Writing"

@@ -7,7 +7,7 @@ from bpy.types import Context, Object, PropertyGroup
 from ..core.arrays import FloatArray
 from ..core.errors import RetargetError
 from ..core.mesh import TriMesh
-from ..core.methods.base import Face, Problem
+from ..core.problem import Face, Problem
 from .base_object import read_base
 from .examples import read_examples
 from .meshes import neutral_mesh

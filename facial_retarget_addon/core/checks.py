@@ -15,9 +15,9 @@ from scipy.sparse.csgraph import connected_components
 
 from .arrays import BoolArray, FloatArray, IntArray
 from .errors import RetargetError
-from .methods.base import Face, Problem
 from .methods.settings import Settings
 from .points import FeaturePoints, common_names
+from .problem import Face, Problem
 from .rigid import fit_rigid
 
 LEAST_POINTS = 30

@@ -193,9 +193,7 @@ class _Search:
             take = min(take, most)
             left = []
             for rows in _blocks(active, max(1, _BLOCK // take)):
-                distance, rank = pieces.tree.query(
-                    self._points[rows], k=np.arange(done + 1, take + 1)
-                )
+                distance, rank = pieces.tree.query(self._points[rows], k=np.arange(done + 1, take + 1))
                 untried = self._improve(pieces, rows, distance, rank)
                 # Two tries may both lie beyond the limit while a third does not.
                 again = (self._face[rows] < 0) & (untried < self._best[rows])

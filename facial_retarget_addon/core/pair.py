@@ -18,9 +18,9 @@ from .binding import Binding, bind
 from .carry import LinearMotion, local_turns
 from .correspondence import Correspondence, correspond, places_on_source
 from .mesh import TriMesh
-from .methods.base import Problem
 from .normal_mesh import NormalLevel, NormalMesh, build_normal_mesh
 from .points import FeaturePoints, common_names, place_matrix
+from .problem import Problem
 from .raycast import CasterFactory
 from .rigid import Similarity, fit_similarity
 from .source_reader import SourceReader

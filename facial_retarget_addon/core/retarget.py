@@ -1,4 +1,4 @@
-"""A whole retargeting job on arrays: fit, frames in blocks, report."""
+"""A whole retargeting job on arrays: check, fit, frames in blocks, report."""
 
 from __future__ import annotations
 
@@ -9,9 +9,11 @@ from typing import Any
 import numpy as np
 
 from .arrays import FloatArray, Progress, no_progress
+from .checks import faults, warnings
 from .errors import RetargetError
-from .methods.base import Problem, fit
+from .methods.base import fit
 from .methods.settings import Settings
+from .problem import Problem
 from .quality import Quality
 
 BLOCK = 16
@@ -29,7 +31,7 @@ class Result:
 def retarget(
     method: str, problem: Problem, settings: Settings, frames: FloatArray, progress: Progress = no_progress
 ) -> Result:
-    """Fit a method to two faces and take all frames through it.
+    """Check a problem, fit a method to its two faces, and take all frames through it.
 
     Parameters
     ----------
@@ -39,12 +41,16 @@ def retarget(
 
     Raises
     ------
-    RetargetError : for frames of another vertex count than the source, or whatever the method refuses.
+    RetargetError : for anything that is wrong with the problem or its frames, or whatever the method refuses.
     """
     source, target = problem.source.mesh, problem.target.mesh
     if frames.ndim != 3 or frames.shape[1:] != source.vertices.shape:
         raise RetargetError(f"source frames have shape {frames.shape}, expected (F, {len(source.vertices)}, 3)")
     start = perf_counter()
+    if wrong := faults(problem, frames, settings):
+        raise RetargetError("; ".join(wrong))
+    noticed = warnings(problem, frames, settings)
+    checked = perf_counter()
     retargeter = fit(method, problem, settings, lambda share, what: progress(0.4 * share, what))
     fitted = perf_counter()
     result = np.empty((len(frames), len(target.vertices), 3), np.float32)
@@ -62,9 +68,11 @@ def retarget(
         "method": method,
         "settings": asdict(settings),
         **retargeter.report,
+        "warnings": [*noticed, *retargeter.report["warnings"]],
         "quality": quality.summary(),
         "seconds": {
-            "fit": fitted - start,
+            "check": checked - start,
+            "fit": fitted - checked,
             "frames": perf_counter() - fitted - measuring,
             "quality": measuring,
         },

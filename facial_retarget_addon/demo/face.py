@@ -9,8 +9,8 @@ import numpy as np
 
 from ..core.arrays import FloatArray, IntArray
 from ..core.mesh import TriMesh
-from ..core.methods.base import Face
 from ..core.points import FeaturePoints
+from ..core.problem import Face
 from .acting import Acting
 from .expressions import EXPRESSIONS
 from .landmarks import POINTS

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ..core.arrays import FloatArray
-from ..core.methods.base import Problem
+from ..core.problem import Problem
 from .documents import json_bytes
 from .report_pictures import PICTURE_SIZE, Moment, liveliest, moments
 

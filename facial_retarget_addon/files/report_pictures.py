@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..core.arrays import FloatArray
-from ..core.methods.base import Face, Problem
+from ..core.problem import Face, Problem
 from ..core.raycast import CasterFactory
 from .pictures import png_bytes, shade
 

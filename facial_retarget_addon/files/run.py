@@ -13,8 +13,8 @@ import numpy as np
 from ..core.arrays import FloatArray, Progress, no_progress
 from ..core.checks import faults, warnings
 from ..core.errors import RetargetError
-from ..core.methods.base import Face, Problem
 from ..core.points import FeaturePoints
+from ..core.problem import Face, Problem
 from ..core.retarget import retarget
 from .base_mesh import read_base_mesh
 from .frames import add_frames, check_frames_place, read_frames
@@ -65,14 +65,12 @@ def run_job(path: Path, progress: Progress = no_progress) -> dict[str, Any]:
     """
     start = time.perf_counter()
     job = read_job(path)
-    inputs, wrong = _read_and_check(job)
+    inputs, wrong = _read(job)
     if wrong or inputs is None or inputs.frames is None:
-        raise RetargetError("; ".join(wrong))
-    noticed = warnings(inputs.problem, inputs.frames, job.settings)
-    seconds = {"read and check": time.perf_counter() - start}
+        raise RetargetError("; ".join([*wrong, *_problem_faults(inputs, job)]))
+    seconds = {"read": time.perf_counter() - start}
     result = retarget(job.method, inputs.problem, job.settings, inputs.frames, _part(progress, 0.1, 0.9))
     report = {"job": job.path.name, **result.report}
-    report["warnings"] = [*noticed, *report.get("warnings", [])]
     report["seconds"] = seconds | report.get("seconds", {})
     progress(0.9, "Writing")
     with written_whole() as aside:
@@ -94,7 +92,8 @@ def check_job(path: Path) -> Findings:
         job = read_job(path)
     except RetargetError as error:
         return Findings([str(error)], [])
-    inputs, wrong = _read_and_check(job)
+    inputs, wrong = _read(job)
+    wrong += _problem_faults(inputs, job)
     if wrong or inputs is None:
         return Findings(wrong, [])
     return Findings([], warnings(inputs.problem, inputs.frames, job.settings))
@@ -114,17 +113,19 @@ def read_inputs(job: Job) -> Inputs:
     return inputs
 
 
-def _read_and_check(job: Job) -> tuple[Inputs | None, list[str]]:
-    """What the files hold, and all that is wrong; None where so much is unreadable that there is no problem."""
+def _read(job: Job) -> tuple[Inputs | None, list[str]]:
+    """What the files hold, and what is wrong with them; None where so much is unreadable that there is no problem."""
     reading = _Reading()
     inputs = reading.inputs(job)
     reading.attempt(check_frames_place, job.output.frames)
     for output in (job.output.report, job.output.page):
         if output is not None:
             reading.attempt(check_place, output)
-    if inputs is not None:
-        reading.wrong += faults(inputs.problem, inputs.frames, job.settings)
     return inputs, reading.wrong
+
+
+def _problem_faults(inputs: Inputs | None, job: Job) -> list[str]:
+    return [] if inputs is None else faults(inputs.problem, inputs.frames, job.settings)
 
 
 class _Reading:

@@ -10,9 +10,9 @@ import pytest
 
 from facial_retarget_addon.core.checks import faults, warnings
 from facial_retarget_addon.core.mesh import TriMesh
-from facial_retarget_addon.core.methods.base import Face, Problem
 from facial_retarget_addon.core.methods.settings import HierarchicalSettings
 from facial_retarget_addon.core.points import FeaturePoints
+from facial_retarget_addon.core.problem import Face, Problem
 
 SETTINGS = HierarchicalSettings(levels=2)
 

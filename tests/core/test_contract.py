@@ -11,9 +11,10 @@ from facial_retarget_addon.core.arrays import no_progress
 from facial_retarget_addon.core.errors import Cancelled, RetargetError
 from facial_retarget_addon.core.mesh import TriMesh
 from facial_retarget_addon.core.methods import METHODS
-from facial_retarget_addon.core.methods.base import Face, Problem, Retargeter, fit
+from facial_retarget_addon.core.methods.base import Retargeter, fit
 from facial_retarget_addon.core.methods.settings import SETTINGS, Settings
 from facial_retarget_addon.core.points import FeaturePoints
+from facial_retarget_addon.core.problem import Face, Problem
 from facial_retarget_addon.core.retarget import retarget
 
 RESOLUTION = {"hierarchical": 0.03}

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from facial_retarget_addon.core.mesh import TriMesh
-from facial_retarget_addon.core.methods.base import Face, Problem
 from facial_retarget_addon.core.methods.settings import HierarchicalSettings
+from facial_retarget_addon.core.problem import Face, Problem
 from facial_retarget_addon.core.retarget import Result, retarget
 from facial_retarget_addon.files.points import read_points
 

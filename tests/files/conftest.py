@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
@@ -12,8 +11,6 @@ import pytest
 from facial_retarget_addon.core.mesh import TriMesh
 from facial_retarget_addon.core.methods.settings import HierarchicalSettings
 from facial_retarget_addon.core.points import FeaturePoints
-from facial_retarget_addon.core.retarget import Result
-from facial_retarget_addon.files import run
 from facial_retarget_addon.files.frames import write_frames
 from facial_retarget_addon.files.job import ExampleFiles, FaceFiles, Job, OutputFiles, write_job
 from facial_retarget_addon.files.mesh_file import MeshFile
@@ -85,27 +82,28 @@ def job(tmp_path: Path) -> Job:
     return described
 
 
-def stand_in(method, problem, settings, frames, progress) -> Result:
-    """Holds the target still, with a report of the real one's form."""
-    progress(0.5, "frame 1 of 3")
-    result = np.repeat(problem.target.mesh.vertices[None], len(frames), axis=0).astype(np.float32)
-    report = {
-        "method": method,
-        "settings": asdict(settings),
-        "scale": 2.0,
-        "levels": [{"level": 1, "vertices": 9, "source_piercing_errors": 0, "target_piercing_errors": 1}],
-        "examples": [{"name": "joy", "fit": 0.01, "leave_one_out": float("nan")}],
-        "quality": {"torn_edges": 0, "neutral_drift": 0.0},
-        "warnings": ["the stand-in does nothing"],
-        "seconds": {"fit": 0.1},
-    }
-    return Result(result, report)
+class StandIn:
+    """A fitted method that holds the target still, with a report of the real one's form."""
+
+    def __init__(self, method, problem, settings, progress) -> None:
+        progress(0.5, "frame 1 of 3")
+        self.rest = problem.target.mesh.vertices.astype(np.float32)
+        self.counterpart = np.full(len(self.rest), -1)
+        self.report = {
+            "scale": 2.0,
+            "levels": [{"level": 1, "vertices": 9, "source_piercing_errors": 0, "target_piercing_errors": 1}],
+            "examples": [{"name": "joy", "fit": 0.01, "leave_one_out": float("nan")}],
+            "warnings": ["the stand-in does nothing"],
+        }
+
+    def frames(self, source: np.ndarray) -> np.ndarray:
+        return np.repeat(self.rest[None], len(source), axis=0)
 
 
 @pytest.fixture
 def no_method(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Only files are looked at: the method is a stand-in."""
-    monkeypatch.setattr(run, "retarget", stand_in)
+    """Only files and checks are looked at: the method is a stand-in."""
+    monkeypatch.setattr("facial_retarget_addon.core.retarget.fit", StandIn)
 
 
 @pytest.fixture

@@ -95,15 +95,12 @@ def test_lines_elsewhere_and_not_one_for_every_frame():
     assert 10 < len(lines) < 25
 
 
-def test_the_demonstration_is_a_set_of_sound_jobs(tmp_path, monkeypatch, capsys):
+def test_the_demonstration_is_a_set_of_sound_jobs(tmp_path, monkeypatch, capsys, no_method):
     """Its files are written and its jobs have no fault; retargeting itself is the method's own test."""
     from facial_retarget_addon import demonstration
     from facial_retarget_addon.demo import performance_table
     from facial_retarget_addon.files import run
 
-    from .conftest import stand_in
-
-    monkeypatch.setattr(run, "retarget", stand_in)
     monkeypatch.setattr(run, "report_page", lambda *arguments: b"a page")
     monkeypatch.setattr(demonstration, "performance", lambda face: face.frames(performance_table()[25:28]))
     assert main(["demo", str(tmp_path / "new" / "demo"), "--quiet"]) == 0

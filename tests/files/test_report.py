@@ -9,8 +9,8 @@ from html.parser import HTMLParser
 import numpy as np
 import pytest
 
-from facial_retarget_addon.core.methods.base import Face, Problem
 from facial_retarget_addon.core.points import FeaturePoints
+from facial_retarget_addon.core.problem import Face, Problem
 from facial_retarget_addon.files.report import render, report_json, report_page
 from facial_retarget_addon.files.report_pictures import Moment, liveliest, moments
 

@@ -1,45 +1,16 @@
-"""What goes into a method and what comes out."""
+"""What every method offers."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from importlib import import_module
 from typing import Any, Protocol
 
 from ..arrays import FloatArray, IntArray, Progress, no_progress
 from ..errors import RetargetError
-from ..mesh import TriMesh
-from ..points import FeaturePoints
-from ..raycast import CasterFactory, EmbreeCaster
+from ..problem import Problem
 from . import METHODS
 from .settings import Settings
-
-
-@dataclass(frozen=True, eq=False)
-class Face:
-    """A neutral face, its feature points, and the examples that it was given.
-
-    examples : name -> (V, 3) positions of the same vertices.
-    """
-
-    mesh: TriMesh
-    points: FeaturePoints
-    examples: Mapping[str, FloatArray] = field(default_factory=dict)
-
-
-@dataclass(frozen=True, eq=False)
-class Problem:
-    """A source face, a target face, and the base mesh if the artist made one.
-
-    base : triangles over point names, counter-clockwise seen from outside; None to have one made.
-    make_caster : makes what casts rays on a mesh: Embree, or Blender's BVHTree where no Embree wheel exists.
-    """
-
-    source: Face
-    target: Face
-    base: tuple[tuple[str, str, str], ...] | None = None
-    make_caster: CasterFactory = EmbreeCaster
 
 
 class Retargeter(Protocol):

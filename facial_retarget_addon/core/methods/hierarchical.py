@@ -21,8 +21,8 @@ from ..example_residuals import ExamplePairs, ExampleResiduals, fit_example_resi
 from ..level_gains import scale_fine, scale_levels
 from ..pair import Pair, prepare_pair
 from ..paper_motion import PaperMotion
+from ..problem import Problem
 from ..rbf import MultiquadricMaps, fit_multiquadrics
-from .base import Problem
 from .settings import HierarchicalSettings
 
 _STILL = 1e-6
