@@ -85,11 +85,11 @@ def inside_base(base: BaseMesh, mesh: TriMesh, points: FeaturePoints) -> BoolArr
     points : the base's points on this face, in the base's order.
     """
     flat = TriMesh(points.positions(mesh.vertices), base.faces)
-    near = SurfaceFinder(flat).closest(mesh.vertices, mesh.vertex_normals, _AGREEMENT)
+    longest = flat.edge_lengths.mean()
+    near = SurfaceFinder(flat).closest(mesh.vertices, mesh.vertex_normals, _AGREEMENT, longest)
     found = near.face >= 0
     on_border = (flat.edge_face_count == 1)[flat.face_edges[near.face]]
     # Edge k of a face lies opposite corner k + 2.
     depth = near.weights[:, [2, 0, 1]]
-    longest = flat.edge_lengths.mean()
-    inside: BoolArray = found & (near.distance < longest) & ~(on_border & (depth < _BORDER)).any(axis=1)
+    inside: BoolArray = found & ~(on_border & (depth < _BORDER)).any(axis=1)
     return inside
