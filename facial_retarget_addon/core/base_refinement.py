@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,10 +16,25 @@ from .mesh import TriMesh
 from .placed_points import PlacedPoints
 from .points import FeaturePoints
 
-_BORDER = 0.08
-"""A place counts as inside the base where its weights at a border edge's far corner are above this."""
-_AGREEMENT = 0.3
-"""It must face the way the base faces: the dot product of their normals is above this."""
+
+class _Rule(NamedTuple):
+    """When a vertex counts as inside the base.
+
+    Attributes
+    ----------
+    agreement : least dot product of its normal and the base's.
+    reach : greatest distance from the base, in its mean edges.
+    depth : least weight at the far corner of a border edge.
+    """
+
+    agreement: float
+    reach: float
+    depth: float
+
+
+_INSIDE = _Rule(agreement=0.3, reach=1.0, depth=0.08)
+_FIT_FOR_A_POINT = _Rule(agreement=0.8, reach=0.35, depth=0.1)
+"""A new point is stricter: in a nostril or an ear it would fold the base, and piercing would fail around it."""
 
 
 def refine_base(
@@ -59,7 +75,7 @@ def _farthest_vertices(
     base: BaseMesh, target: TriMesh, points: FeaturePoints, correspondence: Correspondence, count: int
 ) -> IntArray:
     """Up to `count` target vertices inside the base, each the farthest from all points before it."""
-    inside = np.flatnonzero(inside_base(base, target, points) & (correspondence.confidence > 0.5))
+    inside = np.flatnonzero(inside_base(base, target, points, _FIT_FOR_A_POINT) & (correspondence.confidence > 0.5))
     if count <= 0 or not len(inside):
         return np.empty(0, np.int64)
     places = target.vertices[inside]
@@ -79,17 +95,16 @@ def _squared(vectors: FloatArray) -> FloatArray:
     return squared
 
 
-def inside_base(base: BaseMesh, mesh: TriMesh, points: FeaturePoints) -> BoolArray:
-    """(V,) true for vertices of a face that lie well inside its base mesh.
+def inside_base(base: BaseMesh, mesh: TriMesh, points: FeaturePoints, rule: _Rule = _INSIDE) -> BoolArray:
+    """(V,) true for vertices of a face that lie inside its base mesh.
 
     points : the base's points on this face, in the base's order.
     """
     flat = TriMesh(points.positions(mesh.vertices), base.faces)
-    longest = flat.edge_lengths.mean()
-    near = SurfaceFinder(flat).closest(mesh.vertices, mesh.vertex_normals, _AGREEMENT, longest)
-    found = near.face >= 0
+    reach = rule.reach * flat.edge_lengths.mean()
+    near = SurfaceFinder(flat).closest(mesh.vertices, mesh.vertex_normals, rule.agreement, reach)
     on_border = (flat.edge_face_count == 1)[flat.face_edges[near.face]]
     # Edge k of a face lies opposite corner k + 2.
-    depth = near.weights[:, [2, 0, 1]]
-    inside: BoolArray = found & ~(on_border & (depth < _BORDER)).any(axis=1)
+    far_weights = near.weights[:, [2, 0, 1]]
+    inside: BoolArray = (near.face >= 0) & ~(on_border & (far_weights < rule.depth)).any(axis=1)
     return inside
