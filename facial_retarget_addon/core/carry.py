@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 import scipy.sparse as sp
 
-from .arrays import FloatArray, cross
+from .arrays import FloatArray
 from .binding import Binding, apply_matrix
 from .example_residuals import spread_matrix
 from .normal_mesh import NormalMesh
@@ -17,7 +17,7 @@ from .source_reader import SourceReader
 Motion = Callable[[FloatArray], FloatArray]
 """Source frames (F, Vs, 3) float32 to target displacements (F, V, 3) float32, in target units."""
 
-_TURN_REACH = 0.45
+_TURN_REACH = 0.35
 """Neighbourhood of a local frame, in eye separations."""
 
 
@@ -115,46 +115,41 @@ def turn(displacements: FloatArray, turns: FloatArray) -> FloatArray:
 
 
 def local_turns(
-    source_normals: FloatArray,
-    target_normals: FloatArray,
+    before: FloatArray,
+    after: FloatArray,
+    vertices: FloatArray,
+    trust: FloatArray,
     base: FloatArray,
     separation: float,
     places: FloatArray,
-    rotation: FloatArray,
 ) -> FloatArray:
-    """(V, 3, 3) rotations from source to target, each of its place's own neighbourhood.
+    """(N, 3, 3) rotations at places, each the one that best takes the normals around it to the other face's.
 
-    The heads' rotation, then the smallest turn that takes the source's surface normals around a place to the
-    target's. Normals are steady where fitted frames of a few points are not.
+    Normals of a whole neighbourhood are steady where frames of a few feature points are not.
 
     Parameters
     ----------
-    source_normals, target_normals : (B, 3) unit normals of the surfaces at the base vertices.
-    base : (B, 3) neutral base vertices of the target.
+    before, after : (V, 3) unit normals at the target's vertices: the source's there, and the target's own.
+    vertices : (V, 3) of the target.
+    trust : (V,) weight of each vertex.
+    base : (B, 3) neutral base vertices of the target, at which rotations are found.
     separation : the target's eye separation.
-    places : (V, 3) on the target.
-    rotation : (3, 3) from source to target as a whole.
+    places : (N, 3) on the target.
+
+    References
+    ----------
+    Wahba 1965; Markley 1988 for the solution by singular values.
     """
-    squared = np.square(base[:, None] - base).sum(axis=2)
-    near = np.exp(-squared / (2 * (_TURN_REACH * separation) ** 2))
-    near /= near.sum(axis=1, keepdims=True)
-    tilts = _smallest_rotations(source_normals @ rotation.T, target_normals)
-    smooth = _nearest_rotations((near @ tilts.reshape(-1, 9)).reshape(-1, 3, 3))
+    counts = np.flatnonzero(trust > 0)
+    # In single precision from the middle of the face: the weights are smooth, and there are millions of them.
+    middle, unit = base.mean(axis=0), np.sqrt(2) * _TURN_REACH * separation
+    here, there = ((part - middle) / unit for part in (base, vertices[counts]))
+    squared = np.square(here).sum(axis=1)[:, None] + np.square(there).sum(axis=1) - 2 * (here @ there.T)
+    near = np.exp(-squared.astype(np.float32)) * trust[counts]
+    products = after[counts, :, None] * before[counts, None, :]
+    at_base = _nearest_rotations((near @ products.reshape(-1, 9)).reshape(-1, 3, 3))
     spread = spread_matrix(places, base, _TURN_REACH * separation)
-    return _nearest_rotations((spread @ smooth.reshape(-1, 9)).reshape(-1, 3, 3)) @ rotation
-
-
-def _smallest_rotations(before: FloatArray, after: FloatArray) -> FloatArray:
-    """Rotations (V, 3, 3) that take unit vectors (V, 3) to others on the shortest way; none for opposite ones."""
-    axis = cross(before, after)
-    cosine = np.einsum("vi,vi->v", before, after)
-    wedge = np.zeros((len(axis), 3, 3))
-    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
-        wedge[:, i, j], wedge[:, j, i] = -axis[:, k], axis[:, k]
-    share = np.where(cosine > -0.99, 1 / np.maximum(1 + cosine, 0.01), 0.0)
-    turned: FloatArray = np.eye(3) + wedge + share[:, None, None] * (wedge @ wedge)
-    turned[cosine <= -0.99] = np.eye(3)
-    return turned
+    return _nearest_rotations((spread @ at_base.reshape(-1, 9)).reshape(-1, 3, 3))
 
 
 def _nearest_rotations(matrices: FloatArray) -> FloatArray:

@@ -29,6 +29,9 @@ from .subdivision import Level, hierarchy
 _REACH = 0.5
 """Eye separations beyond the base's border over which its own motion fades into the carried one."""
 
+_AGREEMENT = 0.3
+"""Normals of matched places whose dot product is below this say nothing about how the surface turns."""
+
 
 @dataclass(frozen=True, eq=False)
 class Pair:
@@ -116,9 +119,15 @@ class Pair:
 
     def turns(self, places: FloatArray) -> FloatArray:
         """(V, 3, 3) rotations of the motion at places (V, 3) of the target."""
-        before = unit_vectors(self.source_points.positions(self.source.vertex_normals))
-        after = unit_vectors(self.target_points.positions(self.target.vertex_normals))
-        return local_turns(before, after, self.target_base, self.target_separation, places, self.similarity.rotation)
+        rotation = self.similarity.rotation
+        before = unit_vectors(self.carry @ self.source.vertex_normals) @ rotation.T
+        after = self.target.vertex_normals
+        agree = np.einsum("vi,vi->v", before, after) > _AGREEMENT
+        trust = self.target.vertex_areas * (agree & (self.correspondence.confidence > 0.5))
+        turns = local_turns(
+            before, after, self.target.vertices, trust, self.target_base, self.target_separation, places
+        )
+        return turns @ rotation
 
     def reader(self, pierce: bool) -> SourceReader:
         """Reads the source's frames; `pierce` pierces every one anew."""

@@ -121,20 +121,24 @@ def test_a_linear_motion_scales_and_turns(rng: np.random.Generator) -> None:
     assert not motion(rest.astype(np.float32)[None]).any()
 
 
-def test_local_turns_of_a_turned_face_are_that_turn(rng: np.random.Generator) -> None:
-    base, places = rng.normal(size=(60, 3)), rng.normal(size=(20, 3))
-    normals = base / np.linalg.norm(base, axis=1, keepdims=True)
-    rotation = turned(0.9)
-    found = local_turns(normals, normals @ rotation.T, base @ rotation.T, 1.0, places, rotation)
-    np.testing.assert_allclose(found, np.broadcast_to(rotation, (20, 3, 3)), atol=1e-9)
+def random_normals(rng: np.random.Generator, count: int) -> np.ndarray:
+    vectors = rng.normal(size=(count, 3))
+    return vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
 
 
-def test_local_turns_follow_a_surface_that_tilts(rng: np.random.Generator) -> None:
-    base, places = rng.normal(size=(60, 3)), rng.normal(size=(20, 3))
-    tilt = np.array([[1, 0, 0], [0, np.cos(0.5), -np.sin(0.5)], [0, np.sin(0.5), np.cos(0.5)]])
-    forward = np.tile([0, 0, 1.0], (60, 1))
-    found = local_turns(forward, forward @ tilt.T, base, 1.0, places, np.eye(3))
-    np.testing.assert_allclose(found, np.broadcast_to(tilt, (20, 3, 3)), atol=1e-9)
+def test_local_turns_of_a_turned_surface_are_that_turn(rng: np.random.Generator) -> None:
+    vertices, base, places = (rng.normal(size=(count, 3)) for count in (200, 60, 20))
+    before = random_normals(rng, 200)
+    found = local_turns(before, before @ turned(0.9).T, vertices, np.ones(200), base, 1.0, places)
+    np.testing.assert_allclose(found, np.broadcast_to(turned(0.9), (20, 3, 3)), atol=1e-9)
+
+
+def test_vertices_without_trust_do_not_turn_anything(rng: np.random.Generator) -> None:
+    vertices, base = rng.normal(size=(200, 3)), rng.normal(size=(60, 3))
+    before = random_normals(rng, 200)
+    after = np.where(np.arange(200)[:, None] < 100, before, random_normals(rng, 200))
+    found = local_turns(before, after, vertices, (np.arange(200) < 100) * 1.0, base, 1.0, base)
+    np.testing.assert_allclose(found, np.broadcast_to(np.eye(3), (60, 3, 3)), atol=1e-9)
 
 
 def test_a_blend_is_the_ride_inside_and_the_other_motion_outside() -> None:
