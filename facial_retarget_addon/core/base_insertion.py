@@ -14,6 +14,8 @@ from .placed_points import PlacedPoints
 
 _RIM = 0.05
 """A point whose weight inside a border triangle is below this, on any face, lies on the border or outside."""
+_OFF = 0.1
+"""A point beside an edge, farther from it along the surface than this many mean edges, lies beyond it."""
 _UPRIGHT = 0.1
 """Triangles whose agreement with the surface is above this are fine."""
 _FOLD_COST = 0.1
@@ -50,6 +52,8 @@ def insert_points(faces: IntArray, rows: IntArray, placed: Sequence[PlacedPoints
         chosen = int(np.argmin(gap[near] + _FOLD_COST * (upright < _UPRIGHT)))
         best = int(near[chosen])
         folds = upright[chosen] < min(_UPRIGHT, _worst(faces[best : best + 1], scaled)[0])
+        if weights[best].min() < _RIM and _sideways(faces[best], row, scaled) > _OFF:
+            continue
         # Inside, flips mend a fold; at the border there is nothing to flip with.
         if not _on_border(faces, best, weights[best], 1.0 if folds else _RIM):
             faces = np.concatenate([np.delete(faces, best, axis=0), split[chosen]])
@@ -77,6 +81,16 @@ def _nearest(faces: IntArray, row: int, placed: Sequence[PlacedPoints]) -> tuple
         np.minimum(weights, here, out=weights)
         gap += ((np.einsum("fk,fkc->fc", here, corners) - point) ** 2).sum(axis=1)
     return weights, gap
+
+
+def _sideways(face: IntArray, row: int, placed: Sequence[PlacedPoints]) -> float:
+    """Distance of a point from its place in a triangle, across the point's normal, the least on any face."""
+    found = []
+    for p in placed:
+        corners, point, normal = p.positions[face], p.positions[row], p.normals[row]
+        gap = point - closest_on_triangles(point, corners) @ corners
+        found.append(float(np.linalg.norm(gap - (gap @ normal) * normal)))
+    return min(found)
 
 
 def _on_border(faces: IntArray, face: int, weights: FloatArray, rim: float) -> bool:
