@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -203,10 +204,13 @@ def prepare_pair(problem: Problem, levels: int, base_points: int, progress: Prog
     base = base_mesh(source, on_source, target, on_target, problem.base, problem.make_caster)
     base, on_source, on_target = refine_base(base, source, on_source, target, on_target, found, base_points)
     steps = hierarchy(base.faces, len(base.names), levels)
-    progress(0.7, "piercing the source")
-    source_normal = build_normal_mesh(source, on_source, base.loops, steps, problem.make_caster)
-    progress(0.85, "piercing the target")
-    target_normal = build_normal_mesh(target, on_target, base.loops, steps, problem.make_caster)
+    progress(0.7, "piercing both faces")
+    with ThreadPoolExecutor(2) as both:
+        source_normal, target_normal = both.map(
+            lambda mesh, points: build_normal_mesh(mesh, points, base.loops, steps, problem.make_caster),
+            (source, target),
+            (on_source, on_target),
+        )
     return Pair(
         source,
         target,
