@@ -11,8 +11,8 @@ from .closest_point import SurfaceFinder
 from .control_nodes import control_nodes, spread_nodes
 from .mesh import TriMesh
 
-_NODES = 500
-_SAMPLES = 1200
+_NODES = 400
+_SAMPLES = 800
 _STIFFNESS = (10.0, 3.0, 1.0, 0.3)
 """Weight of the bending against the samples, pass by pass: the surface comes stiff and softens."""
 _POINT_WEIGHT = 2.0
