@@ -118,11 +118,12 @@ CLASSES = (
     FACIAL_RETARGET_PG_task,
 )
 
+_register_classes, _unregister_classes = bpy.utils.register_classes_factory(CLASSES)
+
 
 def register() -> None:
     """Hang the groups on objects and scenes."""
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
+    _register_classes()
     Object.facial_retarget = PointerProperty(type=FACIAL_RETARGET_PG_face)
     Scene.facial_retarget = PointerProperty(type=FACIAL_RETARGET_PG_task)
 
@@ -131,5 +132,4 @@ def unregister() -> None:
     """Take the groups off again; their data stays in the .blend."""
     del Scene.facial_retarget
     del Object.facial_retarget
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+    _unregister_classes()

@@ -18,14 +18,4 @@ CLASSES = (
     jobs.FACIAL_RETARGET_OT_save_job,
 )
 
-
-def register() -> None:
-    """Make the operators known to Blender."""
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister() -> None:
-    """Take them away again."""
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -13,14 +13,4 @@ CLASSES = (
     job.FACIAL_RETARGET_PT_job,
 )
 
-
-def register() -> None:
-    """Make the panels known to Blender."""
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister() -> None:
-    """Take them away again."""
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)
