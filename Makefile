@@ -27,8 +27,9 @@ test: .venv/ready
 	.venv-$*/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes -r $<
 	touch $@
 
-test-blenders: .venv/ready .venv-4.5/ready .venv-5.2/ready
-	FACIAL_RETARGET_BLENDER_PYTHONS="$(CURDIR)/.venv-4.5/bin/python:$(CURDIR)/.venv-5.2/bin/python" \
+BLENDERS ?= 4.5 5.2
+test-blenders: .venv/ready $(BLENDERS:%=.venv-%/ready)
+	FACIAL_RETARGET_BLENDER_PYTHONS="$(subst $() ,:,$(BLENDERS:%=$(CURDIR)/.venv-%/bin/python))" \
 	    $(BIN)/python -m pytest tests/blender
 
 lint: .venv/ready
