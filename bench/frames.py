@@ -16,7 +16,6 @@ from .deformation_transfer import DeformationTransfer
 from .faces import pair, problem
 from .timing import Row, medians
 
-PAPER_VERTICES = 69_246
 BLOCK = 16
 
 
