@@ -7,7 +7,7 @@ from bpy.types import Context, Operator
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
 from .errors import tells_user
-from .polls import OnTask
+from .polls import OnTask, in_mode
 
 
 class FACIAL_RETARGET_OT_load_job(Operator, ImportHelper):
@@ -28,10 +28,7 @@ class FACIAL_RETARGET_OT_load_job(Operator, ImportHelper):
     @classmethod
     def poll(cls, context: Context) -> bool:
         """Only in Object Mode."""
-        if context.mode != "OBJECT":
-            cls.poll_message_set("Switch to Object Mode")
-            return False
-        return True
+        return in_mode(cls, context)
 
     @tells_user
     def execute(self, context: Context) -> set[str]:

@@ -3,6 +3,14 @@
 from bpy.types import Context
 
 
+def in_mode(cls: type, context: Context, modes: tuple[str, ...] = ("OBJECT",)) -> bool:
+    """Whether Blender is in one of the modes; the tooltip says it if not."""
+    if context.mode not in modes:
+        cls.poll_message_set("Switch to Object Mode")
+        return False
+    return True
+
+
 class OnFace:
     """For operators on the active mesh object."""
 
@@ -14,10 +22,7 @@ class OnFace:
         if context.active_object is None or context.active_object.type != "MESH":
             cls.poll_message_set("Select a mesh object: the source or the target face")
             return False
-        if context.mode not in cls.modes:
-            cls.poll_message_set("Switch to Object Mode")
-            return False
-        return True
+        return in_mode(cls, context, cls.modes)
 
 
 class OnTask:
@@ -30,7 +35,4 @@ class OnTask:
         if task.source is None or task.target is None:
             cls.poll_message_set("Choose a source and a target under Faces")
             return False
-        if context.mode != "OBJECT":
-            cls.poll_message_set("Switch to Object Mode")
-            return False
-        return True
+        return in_mode(cls, context)

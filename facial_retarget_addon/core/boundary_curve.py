@@ -6,9 +6,9 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from .arrays import FloatArray, IntArray, unit_vectors
-from .closest_point import Nearest, SurfaceFinder
+from .closest_point import Nearest, SurfaceFinder, closest_agreeing, some_places
 from .mesh import TriMesh
-from .piercing import closest_agreeing, some_places
+from .piercing import AGREEMENT
 from .surface_path import SurfacePaths, line_length, resample
 
 _SAMPLES = 48
@@ -86,7 +86,7 @@ class BoundaryCurves:
         """Places at shares of one piece between two points with normals `start` and `stop`."""
         every = np.concatenate([np.linspace(0, 1, _SAMPLES), share])
         facing = unit_vectors((1 - every[:, None]) * start + every[:, None] * stop)
-        near = closest_agreeing(self._finder, resample(piece, every), facing)
+        near = closest_agreeing(self._finder, resample(piece, every), facing, AGREEMENT)
         length = line_length(piece)
         step = np.linalg.norm(np.diff(near.point[:_SAMPLES], axis=0), axis=1)
         if step.max() > _JUMP * length / (_SAMPLES - 1):

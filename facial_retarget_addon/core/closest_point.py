@@ -112,6 +112,27 @@ class SurfaceFinder:
         return search.result()
 
 
+def closest_agreeing(
+    finder: SurfaceFinder,
+    points: FloatArray,
+    normals: FloatArray,
+    agreement: float,
+    limit: FloatArray | float = np.inf,
+) -> Nearest:
+    """Closest place (N) whose normal agrees; the closest of all where none within the limit (N,) agrees."""
+    near = finder.closest(points, normals, agreement)
+    lost = (near.face < 0) | (near.distance > limit)
+    if lost.any():
+        for mine, other in zip(near, finder.closest(points[lost]), strict=True):
+            mine[lost] = other
+    return near
+
+
+def some_places(places: Nearest, rows: IntArray | list[int]) -> Nearest:
+    """The places of some rows."""
+    return Nearest(places.distance[rows], places.face[rows], places.weights[rows], places.point[rows])
+
+
 _NEIGHBOURS = 24
 _FIRST = 6
 _OCTANT = np.array([1, 2, 4])

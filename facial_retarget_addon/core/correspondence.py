@@ -9,7 +9,7 @@ import scipy.sparse as sp
 from scipy.spatial.distance import cdist
 
 from .arrays import BoolArray, FloatArray, IntArray, Progress, no_progress
-from .closest_point import Nearest, SurfaceFinder
+from .closest_point import Nearest, SurfaceFinder, closest_agreeing
 from .errors import RetargetError
 from .map_repair import believable
 from .mesh import TriMesh
@@ -143,10 +143,8 @@ def places_on_source(
     normal = np.einsum("mk,mkc->mc", weights, normals[corners])
     component = source.components[source.faces[correspondence.face.max(), 0]]
     finder = SurfaceFinder(source, np.flatnonzero(source.components[source.faces[:, 0]] == component))
-    found = finder.closest(position, normal, 0.0)
-    guess = finder.closest(position)
-    face = np.where(found.face >= 0, found.face, guess.face)
-    return source.faces[face], np.where((found.face >= 0)[:, None], found.weights, guess.weights)
+    found = closest_agreeing(finder, position, normal, 0.0)
+    return source.faces[found.face], found.weights
 
 
 def predict_points(

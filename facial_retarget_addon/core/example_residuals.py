@@ -65,32 +65,54 @@ class ExampleResiduals:
         return steered
 
 
-def fit_example_residuals(
-    pairs: ExamplePairs,
-    source_base: FloatArray,
-    source_separation: float,
-    target_base: FloatArray,
-    target: FloatArray,
-    target_areas: FloatArray,
-    target_separation: float,
-    trust: float = 1.0,
-) -> ExampleResiduals:
-    """Learn from the examples.
+class ExampleRegions:
+    """What stays the same for every set of examples of one pair: neighbourhoods on both faces.
 
     Parameters
     ----------
-    pairs : the examples.
     source_base, target_base : (B, 3) neutral base vertices on both faces.
     source_separation, target_separation : between the eyes, in each face's units.
     target, target_areas : (V, 3) neutral vertices and (V,) their areas.
-    trust : how far the examples steer, from 0 (the plain carry) to 1.
     """
-    weights = fit_example_weights(source_base, pairs.base, source_separation)
-    spread = spread_matrix(target, target_base, SPREAD * target_separation)
-    strength = _strength(pairs, target_base, target, target_areas, GAIN_REACH * target_separation)
-    strength = (1 + trust * ((spread @ strength) - 1)).astype(np.float32)[:, None]
-    residual = (trust * pairs.wanted + (1 - trust) * pairs.carried - strength * pairs.carried).astype(np.float32)
-    return ExampleResiduals(weights, spread.astype(np.float32), strength, residual)
+
+    def __init__(
+        self,
+        source_base: FloatArray,
+        source_separation: float,
+        target_base: FloatArray,
+        target: FloatArray,
+        target_areas: FloatArray,
+        target_separation: float,
+    ) -> None:
+        self._source_base, self._source_separation = source_base, source_separation
+        self._areas = target_areas
+        self._spread = spread_matrix(target, target_base, SPREAD * target_separation)
+        squared = np.square(target_base[:, None] - target).sum(axis=2)
+        self._near = np.exp(-squared / (2 * (GAIN_REACH * target_separation) ** 2))
+
+    def fit(self, pairs: ExamplePairs, trust: float = 1.0) -> ExampleResiduals:
+        """Learn from examples; `trust` is how far they steer, from 0 (the plain carry) to 1."""
+        weights = fit_example_weights(self._source_base, pairs.base, self._source_separation)
+        strength = (1 + trust * ((self._spread @ self._strength(pairs)) - 1)).astype(np.float32)[:, None]
+        residual = (trust * pairs.wanted + (1 - trust) * pairs.carried - strength * pairs.carried).astype(np.float32)
+        return ExampleResiduals(weights, self._spread.astype(np.float32), strength, residual)
+
+    def leave_one_out(self, pairs: ExamplePairs, m: int, trust: float = 1.0) -> FloatArray:
+        """(V, 3) what the other examples make of example m."""
+        others = self.fit(pairs.without(m), trust)
+        predicted: FloatArray = others.steer(pairs.carried[m : m + 1].astype(np.float32), pairs.base[m : m + 1])[0]
+        return predicted
+
+    def _strength(self, pairs: ExamplePairs) -> FloatArray:
+        """(B,) least-squares factor from carried examples to wanted ones around each base vertex."""
+        both = np.einsum("mvc,mvc,v->v", pairs.carried, pairs.wanted, self._areas)
+        own = np.einsum("mvc,mvc,v->v", pairs.carried, pairs.carried, self._areas)
+        energy, match = self._near @ own, self._near @ both
+        prior = GAIN_TRUST * energy.max(initial=0.0)
+        if prior <= 0:
+            return np.ones(len(energy))
+        factor: FloatArray = np.clip((match + prior) / (energy + prior), 0.0, STRONGEST)
+        return factor
 
 
 def spread_matrix(places: FloatArray, base: FloatArray, reach: float) -> sp.csr_matrix:
@@ -101,24 +123,3 @@ def spread_matrix(places: FloatArray, base: FloatArray, reach: float) -> sp.csr_
     weight /= weight.sum(axis=1, keepdims=True)
     row = np.repeat(np.arange(len(places)), nearest)
     return sp.csr_matrix((weight.ravel(), (row, column.ravel())), shape=(len(places), len(base)))
-
-
-def _strength(pairs: ExamplePairs, base: FloatArray, places: FloatArray, areas: FloatArray, reach: float) -> FloatArray:
-    """(B,) least-squares factor from carried examples to wanted ones around each base vertex."""
-    both = np.einsum("mvc,mvc,v->v", pairs.carried, pairs.wanted, areas)
-    own = np.einsum("mvc,mvc,v->v", pairs.carried, pairs.carried, areas)
-    squared = np.square(base[:, None] - places).sum(axis=2)
-    near = np.exp(-squared / (2 * reach**2))
-    energy, match = near @ own, near @ both
-    prior = GAIN_TRUST * energy.max(initial=0.0)
-    if prior <= 0:
-        return np.ones(len(base))
-    factor: FloatArray = np.clip((match + prior) / (energy + prior), 0.0, STRONGEST)
-    return factor
-
-
-def leave_one_out(pairs: ExamplePairs, m: int, *args: FloatArray | float) -> FloatArray:
-    """(V, 3) what the other examples make of example m; `args` as for `fit_example_residuals` after the pairs."""
-    others = fit_example_residuals(pairs.without(m), *args)  # type: ignore[arg-type]
-    predicted: FloatArray = others.steer(pairs.carried[m : m + 1].astype(np.float32), pairs.base[m : m + 1])[0]
-    return predicted

@@ -11,10 +11,10 @@ import scipy.sparse as sp
 from .arrays import BoolArray, FloatArray, IntArray, unit_vectors
 from .base_mesh import BaseLoop
 from .boundary_curve import BoundaryCurves
-from .closest_point import Nearest, SurfaceFinder
+from .closest_point import Nearest, SurfaceFinder, closest_agreeing
 from .errors import RetargetError
 from .mesh import TriMesh
-from .piercing import Pierced, closest_agreeing, outliers, pierce
+from .piercing import AGREEMENT, Pierced, outliers, pierce
 from .points import FeaturePoints
 from .raycast import CasterFactory, EmbreeCaster, RayCaster
 from .subdivision import Level, boundary_parameters
@@ -298,7 +298,8 @@ class _Builder:
         mean = fill @ positions
         positions[unknown] = mean
         facing = TriMesh(positions, faces).vertex_normals[unknown]
-        near = closest_agreeing(self._finder, mean, facing, edge_lengths_around(neighbours, positions)[unknown])
+        edges = edge_lengths_around(neighbours, positions)[unknown]
+        near = closest_agreeing(self._finder, mean, facing, AGREEMENT, edges)
         positions[unknown] = near.point
         places.put(unknown, near)
         correction: FloatArray = near.point - mean

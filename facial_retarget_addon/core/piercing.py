@@ -8,7 +8,6 @@ import numpy as np
 import scipy.sparse as sp
 
 from .arrays import BoolArray, FloatArray, IntArray
-from .closest_point import Nearest, SurfaceFinder
 from .mesh import TriMesh
 from .raycast import RayCaster
 from .vertex_neighbours import neighbour_median
@@ -60,20 +59,3 @@ def outliers(neighbours: sp.csr_matrix, offsets: FloatArray, hit: BoolArray, edg
     median = neighbour_median(neighbours, offsets, hit)
     far: BoolArray = hit & (np.abs(offsets - median) > OUTLIER * edges)
     return far
-
-
-def closest_agreeing(
-    finder: SurfaceFinder, points: FloatArray, normals: FloatArray, limit: FloatArray | float = np.inf
-) -> Nearest:
-    """Closest place (N) whose normal agrees; the closest of all where none within the limit (N,) agrees."""
-    near = finder.closest(points, normals, AGREEMENT)
-    lost = (near.face < 0) | (near.distance > limit)
-    if lost.any():
-        for mine, other in zip(near, finder.closest(points[lost]), strict=True):
-            mine[lost] = other
-    return near
-
-
-def some_places(places: Nearest, rows: IntArray | list[int]) -> Nearest:
-    """The places of some rows."""
-    return Nearest(places.distance[rows], places.face[rows], places.weights[rows], places.point[rows])

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.optimize import nnls
 
-from facial_retarget_addon.core.example_residuals import ExamplePairs, fit_example_residuals, spread_matrix
+from facial_retarget_addon.core.example_residuals import ExamplePairs, ExampleRegions, spread_matrix
 from facial_retarget_addon.core.examples import fit_example_weights, non_negative_least_squares
 
 
@@ -79,7 +79,7 @@ class TestResiduals:
         carried = carried.reshape(500, 6, 3).transpose(1, 0, 2)
         pairs = ExamplePairs(moves, carried, wanted * carried)
         areas = np.ones(500)
-        return carried, fit_example_residuals(pairs, base, 1.0, base, target, areas, 1.0, trust)
+        return carried, ExampleRegions(base, 1.0, base, target, areas, 1.0).fit(pairs, trust)
 
     def test_the_examples_are_met(self, base: np.ndarray, moves: np.ndarray, target: np.ndarray) -> None:
         carried, residuals = self.fit(base, moves, target, 0.5)

@@ -17,7 +17,7 @@ from ..arrays import FloatArray, IntArray, Progress, no_progress
 from ..binding import apply_matrix
 from ..carry import BlendedMotion, Motion, PiercedMotion
 from ..errors import RetargetError
-from ..example_residuals import ExamplePairs, ExampleResiduals, fit_example_residuals, leave_one_out
+from ..example_residuals import ExamplePairs, ExampleRegions, ExampleResiduals
 from ..level_gains import scale_fine, scale_levels
 from ..pair import Pair, prepare_pair
 from ..paper_motion import PaperMotion
@@ -192,22 +192,21 @@ def _steering(
     base = np.stack([pair.source_points.positions(displacement) for displacement in source])
     carried = motion((pair.source.vertices + source).astype(np.float32))
     pairs = ExamplePairs(base, carried, np.stack([example.target for example in examples]))
-    face = (
+    regions = ExampleRegions(
         pair.source_base,
         pair.source_separation,
         pair.target_base,
         pair.target.vertices,
         pair.target.vertex_areas,
         pair.target_separation,
-        trust,
     )
-    residuals = fit_example_residuals(pairs, *face)
+    residuals = regions.fit(pairs, trust)
     figures = []
     for m, example in enumerate(examples):
         met = residuals.steer(carried[m : m + 1], base[m : m + 1])[0]
         figure = {"name": example.name, "fit": _relative_error(pair, met, example.target)}
         if len(examples) > 1:
-            figure["leave_one_out"] = _relative_error(pair, leave_one_out(pairs, m, *face), example.target)
+            figure["leave_one_out"] = _relative_error(pair, regions.leave_one_out(pairs, m, trust), example.target)
         figures.append(figure)
     return residuals, figures
 
