@@ -76,11 +76,32 @@ def fit_similarity(source_positions: FloatArray, target_positions: FloatArray, s
                 f"alignment: the {len(centred)} {what} positions lie on one line or in one place, "
                 "expected positions spread over a face"
             )
-    u, singular, vt = np.linalg.svd(q.T @ p)
-    sign = np.array([1.0, 1.0, np.sign(np.linalg.det(u) * np.linalg.det(vt))])
-    rotation = (u * sign) @ vt
-    size = float((singular * sign).sum() / np.einsum("ij,ij->", p, p)) if scale else 1.0
+    rotation, singular = closest_rotations(q.T @ p)
+    size = float(singular.sum() / np.einsum("ij,ij->", p, p)) if scale else 1.0
     return Similarity(size, rotation, target.mean(axis=0) - size * rotation @ source.mean(axis=0))
+
+
+def closest_rotations(correlations: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Rotations R that make the traces of R^T C as large as they can be.
+
+    Parameters
+    ----------
+    correlations : (..., 3, 3) sums over matched positions of target times source, each about its centre.
+
+    Returns
+    -------
+    (..., 3, 3) proper rotations that take the source to the target, and the (..., 3) singular values of the
+    correlations, largest first, the last one negative where a mirror image fits better. Where the second is zero, the
+    positions lie on one line and the rotation is open.
+
+    References
+    ----------
+    Umeyama 1991, equation (40); Kabsch 1976.
+    """
+    u, singular, vt = np.linalg.svd(correlations)
+    sign = np.ones_like(singular)
+    sign[..., 2] = np.sign(np.linalg.det(u) * np.linalg.det(vt))
+    return (u * sign[..., None, :]) @ vt, singular * sign
 
 
 def fit_rigid(source_positions: FloatArray, target_positions: FloatArray) -> Similarity:
