@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
 
-from .arrays import FloatArray
+import numpy as np
+
+from .arrays import FloatArray, IntArray
+from .errors import RetargetError
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,3 +32,17 @@ class MarkerTake:
 
     def __len__(self) -> int:
         return len(self.positions)
+
+    def index(self, names: Iterable[str]) -> IntArray:
+        """Row of each name; RetargetError names those that are missing."""
+        row = {name: i for i, name in enumerate(self.names)}
+        wanted = list(names)
+        missing = [name for name in wanted if name not in row]
+        if missing:
+            raise RetargetError(f"markers {', '.join(map(repr, missing))} are not in the take {self.name!r}")
+        return np.array([row[name] for name in wanted], np.int64)
+
+    def subset(self, names: Iterable[str]) -> MarkerTake:
+        """The markers of these names alone, each once, in this order."""
+        once = tuple(dict.fromkeys(names))
+        return replace(self, names=once, positions=self.positions[:, self.index(once)])
