@@ -80,7 +80,7 @@ def head_motion(neutral: FloatArray, frames: FloatArray, method: str = "kabsch",
     weights of `trim` are those of Geman and McClure 1987.
     """
     neutral, frames = np.asarray(neutral, np.float64), np.asarray(frames, np.float64)
-    if neutral.ndim != 2 or neutral.shape[1] != 3 or frames.ndim != 3 or frames.shape[1:] != neutral.shape or not len(frames):
+    if neutral.ndim != 2 or neutral.shape[1] != 3 or frames.shape[1:] != neutral.shape or not frames.size:
         raise RetargetError(
             f"head motion: neutral markers of shape {neutral.shape} and frames of shape {frames.shape} arrived, "
             "expected (M, 3) and (F, M, 3) with F at least 1"
