@@ -2,9 +2,9 @@
 
 No public table says what an ARKit weight is in FAPs, so this one is ours. Which FAPs a shape moves, and which way,
 follows from the muscles behind it. How far is measured: the feature points of three heads whose artists sculpted the
-shapes (ICT-FaceKit, a Rocketbox character, a low-polygon character) were moved by each shape and read as FAPs, and
-the values here lie near the medians, rounded. Of motion that no FAP can say, such as the chin's way back when the jaw
-opens, nothing is left.
+shapes (ICT-FaceKit, a Rocketbox character, a low-polygon character) were read as FAPs, and the values here lie near
+the medians, rounded; the turns of the eyes are those that Live Link Face records beside its weights. What no FAP can
+say, such as the chin's way back when the jaw opens, is left out.
 """
 
 from __future__ import annotations
@@ -34,10 +34,10 @@ _MIDDLE: dict[str, Recipe] = {
 
 _LEFT: dict[str, Recipe] = {
     "eyeBlink": {19: 900, 21: 124},
-    "eyeLookDown": {19: 420, 21: -180, 25: 55000},
+    "eyeLookDown": {19: 420, 21: -180, 25: 60000},
     "eyeLookIn": {23: -60000},
     "eyeLookOut": {23: 60000},
-    "eyeLookUp": {19: -290, 21: 120, 25: -55000},
+    "eyeLookUp": {19: -290, 21: 120, 25: -50000},
     "eyeSquint": {19: 60, 21: 240},
     "eyeWide": {19: -320},
     "jaw": {6: 75, 7: -60, 15: -180, 53: 90, 54: -70},
