@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import re
 import struct
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Protocol
 
 import numpy as np
 
 from ..core.arrays import FloatArray, IntArray
 from ..core.errors import RetargetError
-from .npz import read_arrays, write_arrays
+from .npz import read_arrays, write_blocks
 from .obj import read_obj_vertices, write_obj_faces, write_obj_vertices
 from .whole import Aside, check_place, written_whole
 
@@ -24,6 +25,18 @@ _MDD = struct.Struct(">ii")
 """Frames, vertices; then the frames' times."""
 MDD_RATE = 24.0
 """Frames per second that a written MDD file's times mean."""
+
+
+class FrameBlocks(Protocol):
+    """Frames (F, V, 3) that are asked for a few at once: an array, or what makes them as they are asked for."""
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """(F, V, 3)."""
+
+    def __len__(self) -> int: ...
+
+    def __getitem__(self, frames: slice, /) -> FloatArray: ...
 
 
 def read_frames(path: Path, vertex_count: int) -> FloatArray:
@@ -49,7 +62,7 @@ def read_frames(path: Path, vertex_count: int) -> FloatArray:
     return frames
 
 
-def write_frames(frames: FloatArray, path: Path, corners: tuple[IntArray, IntArray] | None = None) -> None:
+def write_frames(frames: FrameBlocks, path: Path, corners: tuple[IntArray, IntArray] | None = None) -> None:
     """Write frames (F, V, 3), whole or not at all.
 
     Parameters
@@ -65,7 +78,7 @@ def write_frames(frames: FloatArray, path: Path, corners: tuple[IntArray, IntArr
         add_frames(aside, frames, path, corners)
 
 
-def add_frames(aside: Aside, frames: FloatArray, path: Path, corners: tuple[IntArray, IntArray] | None = None) -> None:
+def add_frames(aside: Aside, frames: FrameBlocks, path: Path, corners: tuple[IntArray, IntArray] | None = None) -> None:
     """Write frames among outputs that appear together; the rest as in `write_frames`."""
     writer = _format(path)[1]
     writer(aside.place(path, replaces=".obj"), frames, corners)
@@ -85,9 +98,9 @@ def _read_npz(path: Path) -> FloatArray:
         return np.asanyarray(arrays["frames"], np.float32)
 
 
-def _write_npz(path: Path, frames: FloatArray, corners: tuple[IntArray, IntArray] | None) -> None:
+def _write_npz(path: Path, frames: FrameBlocks, corners: tuple[IntArray, IntArray] | None) -> None:
     with open(path, "xb") as file:
-        write_arrays(file, {"frames": np.asarray(frames, np.float32)})
+        write_blocks(file, "frames", frames.shape, _blocks(frames, "<f4"))
 
 
 def _read_pc2(path: Path) -> FloatArray:
@@ -98,7 +111,7 @@ def _read_pc2(path: Path) -> FloatArray:
     return _mapped(path, "<f4", _PC2.size, samples, vertices)
 
 
-def _write_pc2(path: Path, frames: FloatArray, corners: tuple[IntArray, IntArray] | None) -> None:
+def _write_pc2(path: Path, frames: FrameBlocks, corners: tuple[IntArray, IntArray] | None) -> None:
     head = _PC2.pack(_PC2_SIGNATURE, 1, frames.shape[1], 1.0, 1.0, len(frames))
     _write_raw(path, head, frames, "<f4")
 
@@ -108,9 +121,9 @@ def _read_mdd(path: Path) -> FloatArray:
     return np.array(_mapped(path, ">f4", _MDD.size + 4 * max(samples, 0), samples, vertices), np.float32)
 
 
-def _write_mdd(path: Path, frames: FloatArray, corners: tuple[IntArray, IntArray] | None) -> None:
+def _write_mdd(path: Path, frames: FrameBlocks, corners: tuple[IntArray, IntArray] | None) -> None:
     times = np.arange(len(frames)) / MDD_RATE
-    _write_raw(path, _MDD.pack(*frames.shape[:2]) + times.astype(">f4").tobytes(), frames, ">f4")
+    _write_raw(path, _MDD.pack(len(frames), frames.shape[1]) + times.astype(">f4").tobytes(), frames, ">f4")
 
 
 def _head(path: Path, size: int) -> bytes:
@@ -140,11 +153,17 @@ def _mapped(path: Path, kind: str, offset: int, samples: int, vertices: int) -> 
         raise RetargetError(f"{path} cannot be read: {error.strerror or error}") from error
 
 
-def _write_raw(path: Path, head: bytes, frames: FloatArray, kind: str) -> None:
+def _write_raw(path: Path, head: bytes, frames: FrameBlocks, kind: str) -> None:
     with open(path, "xb") as file:
         file.write(head)
-        for start in range(0, len(frames), BLOCK):
-            file.write(np.ascontiguousarray(frames[start : start + BLOCK], kind).tobytes())
+        for block in _blocks(frames, kind):
+            file.write(block.tobytes())
+
+
+def _blocks(frames: FrameBlocks, kind: str) -> Iterator[FloatArray]:
+    """The frames, a few at once, as contiguous numbers of a kind."""
+    for start in range(0, len(frames), BLOCK):
+        yield np.ascontiguousarray(frames[start : start + BLOCK], kind)
 
 
 def _read_folder(path: Path) -> FloatArray:
@@ -174,10 +193,11 @@ def _natural(path: Path) -> list[tuple[int, str]]:
     return [(int(part), "") if part.isdecimal() else (-1, part) for part in re.split(r"(\d+)", path.name)]
 
 
-def _write_folder(path: Path, frames: FloatArray, corners: tuple[IntArray, IntArray] | None) -> None:
+def _write_folder(path: Path, frames: FrameBlocks, corners: tuple[IntArray, IntArray] | None) -> None:
     path.mkdir()
     words = [b"%d" % v for v in (corners[1] + 1).tolist()] if corners else []
-    for number, frame in enumerate(frames, start=1):
+    every = (frame for block in _blocks(frames, "<f4") for frame in block)
+    for number, frame in enumerate(every, start=1):
         with open(path / f"frame_{number:04d}.obj", "xb") as file:
             write_obj_vertices(file, frame)
             if corners:
@@ -185,7 +205,7 @@ def _write_folder(path: Path, frames: FloatArray, corners: tuple[IntArray, IntAr
 
 
 _Reader = Callable[[Path], FloatArray]
-_Writer = Callable[[Path, FloatArray, tuple[IntArray, IntArray] | None], None]
+_Writer = Callable[[Path, FrameBlocks, tuple[IntArray, IntArray] | None], None]
 _FORMATS: dict[str, tuple[_Reader, _Writer]] = {
     ".npz": (_read_npz, _write_npz),
     ".pc2": (_read_pc2, _write_pc2),

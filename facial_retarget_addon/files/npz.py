@@ -6,9 +6,9 @@ import math
 import struct
 import zipfile
 import zlib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any, BinaryIO, Literal
+from typing import IO, Any, BinaryIO, Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -76,5 +76,17 @@ def write_arrays(file: BinaryIO, arrays: Mapping[str, Array]) -> None:
     """Write arrays as an NPZ file, not compressed; the same arrays give the same bytes."""
     with zipfile.ZipFile(file, "w", zipfile.ZIP_STORED) as archive:
         for name, array in arrays.items():
-            with archive.open(zipfile.ZipInfo(f"{name}.npy"), "w", force_zip64=True) as member:
+            with _member(archive, name) as member:
                 _format.write_array(member, np.asanyarray(array), allow_pickle=False)
+
+
+def write_blocks(file: BinaryIO, name: str, shape: tuple[int, ...], blocks: Iterable[Array]) -> None:
+    """Write one float32 array as an NPZ file, not compressed; its blocks of rows need not exist at once."""
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_STORED) as archive, _member(archive, name) as member:
+        _format.write_array_header_1_0(member, {"descr": "<f4", "fortran_order": False, "shape": shape})
+        for block in blocks:
+            member.write(block.tobytes())
+
+
+def _member(archive: zipfile.ZipFile, name: str) -> IO[bytes]:
+    return archive.open(zipfile.ZipInfo(f"{name}.npy"), "w", force_zip64=True)

@@ -1,4 +1,4 @@
-"""The pictures of a report: the same moments of source and target, side by side."""
+"""The pictures of a report: a face from in front, moment by moment."""
 
 from __future__ import annotations
 
@@ -8,9 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..core.arrays import FloatArray
+from ..core.mesh import TriMesh
+from ..core.points import FeaturePoints
 from ..core.problem import Face, Problem
-from ..core.raycast import CasterFactory
-from .pictures import png_bytes, shade
+from ..core.raycast import CasterFactory, EmbreeCaster
+from .frames import FrameBlocks
+from .pictures import Camera, Image, mark, png_bytes, shade
 
 PICTURE_SIZE = (360, 360)
 MARGIN = 0.12
@@ -31,13 +34,17 @@ def moments(
     problem: Problem, source_frames: FloatArray, target_frames: FloatArray, chosen: Iterable[int]
 ) -> list[Moment]:
     """Pictures of the chosen frames (from 0) out of (F, Vs, 3) and (F, Vt, 3)."""
-    source, target = (_Portrait(face, problem.make_caster) for face in (problem.source, problem.target))
+    source, target = (
+        Portrait(face.mesh, face.points, _upright(face), make_caster=problem.make_caster)
+        for face in (problem.source, problem.target)
+    )
     return [
-        Moment(frame, source.picture(source_frames[frame]), target.picture(target_frames[frame])) for frame in chosen
+        Moment(frame, png_bytes(source.picture(source_frames[frame])), png_bytes(target.picture(target_frames[frame])))
+        for frame in chosen
     ]
 
 
-def liveliest(neutral: FloatArray, frames: FloatArray, count: int = 6) -> list[int]:
+def liveliest(neutral: FloatArray, frames: FrameBlocks, count: int = 6) -> list[int]:
     """The frame with the most motion from each of `count` equal spans of time."""
     motion = np.concatenate(
         [np.abs(frames[start : start + _BLOCK] - neutral).mean(axis=(1, 2)) for start in range(0, len(frames), _BLOCK)]
@@ -46,22 +53,42 @@ def liveliest(neutral: FloatArray, frames: FloatArray, count: int = 6) -> list[i
     return [int(span[np.argmax(motion[span])]) for span in spans]
 
 
-class _Portrait:
-    """Takes pictures of one face from in front, all framed alike."""
+class Portrait:
+    """Takes pictures of one face from in front, all framed alike.
 
-    def __init__(self, face: Face, make_caster: CasterFactory) -> None:
-        self._make_caster = make_caster
-        mesh = face.mesh
-        self._faces = mesh.faces
-        self._axes = _upright(face)
-        places = face.points.positions(mesh.vertices) if len(face.points) else mesh.vertices[np.unique(mesh.faces)]
+    Parameters
+    ----------
+    mesh : of the neutral face.
+    points : that the pictures are framed around; the whole mesh if there are none.
+    axes : (3, 3) rows right (in the picture), up, towards the eye.
+    size : width and height in pixels.
+    make_caster : makes what casts the rays.
+    """
+
+    def __init__(
+        self,
+        mesh: TriMesh,
+        points: FeaturePoints,
+        axes: FloatArray,
+        size: tuple[int, int] = PICTURE_SIZE,
+        make_caster: CasterFactory = EmbreeCaster,
+    ) -> None:
+        self._faces, self._points, self._axes = mesh.faces, points, axes
+        self._size, self._make_caster = size, make_caster
+        places = points.positions(mesh.vertices) if len(points) else mesh.vertices[np.unique(mesh.faces)]
         seen = places @ self._axes.T
         margin = MARGIN * np.ptp(seen, axis=0).max() * np.array([1.0, 1.0, 0.0])
         self._frame = np.stack([seen.min(axis=0) - margin, seen.max(axis=0) + margin])
 
-    def picture(self, vertices: FloatArray) -> bytes:
+    def picture(self, vertices: FloatArray) -> Image:
+        """The face with its vertices (V, 3) at these positions."""
         upright = vertices @ self._axes.T
-        return png_bytes(shade(upright, self._faces, PICTURE_SIZE, frame=self._frame, make_caster=self._make_caster))
+        return shade(upright, self._faces, self._size, frame=self._frame, make_caster=self._make_caster)
+
+    def marked(self, vertices: FloatArray) -> Image:
+        """The same with a dot at each feature point, seen through the surface."""
+        places = self._points.positions(vertices) @ self._axes.T
+        return mark(self.picture(vertices), Camera.framing(self._frame, self._size).project(places))
 
 
 def _upright(face: Face) -> FloatArray:
