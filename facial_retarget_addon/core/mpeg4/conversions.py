@@ -20,8 +20,8 @@ from .visemes import VISEMES
 FULL = 63
 """Blend and intensity of FAPs 1 and 2 at their most."""
 
-_EYES = ((23, 1, -1), (25, 0, 1), (24, 4, -1), (26, 3, 1))
-"""FAP, column of the eyes' angles, sign."""
+_EYES = ((23, 0, -1), (25, 1, 1), (24, 3, -1), (26, 4, 1))
+"""FAP, column of the take's angles of the eyes, sign."""
 
 
 def low_level(stream: FapStream, missing: str = "hold") -> FloatArray:
@@ -75,9 +75,10 @@ def faps_of_arkit(take: ArkitTake) -> FapStream:
     the angles of the eyes, they and not the eyeLook shapes turn the eyes; angles of the head give FAPs 48 to 50.
 
     Live Link Face records radians, positive where the gaze goes to the subject's right (yaw) and down (pitch), and
-    where the head leans to the subject's left (roll). For the eyes this is measured: yaw and pitch follow the eyeLook
-    weights with a correlation above 0.99 in recorded takes, and roll is the product of the two to 1 %, which fixes its
-    sign. That the head's angles follow the same rule is taken for granted: the recorded takes do not move the head.
+    where the head leans to the subject's left (roll). For the eyes of recorded takes this is measured: yaw and pitch
+    follow the eyeLook weights (correlation 0.98 to 1), and roll is the product of the two within a few percent, as it
+    must be with this sign for an eye that rises about a level axis, in Unreal's order of angles. The head's angles are
+    taken to follow the same rule; the takes at hand do not move the head.
     """
     weights = np.asarray(take.weights, np.float64)
     recipes = recipe_matrix(ARKIT.values())
