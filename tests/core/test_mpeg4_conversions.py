@@ -173,6 +173,13 @@ def test_a_take_without_head_leaves_the_head_alone() -> None:
     np.testing.assert_array_equal(low_level(made), made.values)
 
 
+def test_angles_that_are_always_zero_were_not_recorded() -> None:
+    plain = take_of(eyeLookDownRight=0.5)
+    made = faps_of_arkit(replace(plain, head=np.zeros((1, 3)), eyes=np.zeros((1, 6))))
+    np.testing.assert_array_equal(made.values, faps_of_arkit(plain).values)
+    assert not made.used[:, 47:50].any()
+
+
 def test_lids_do_not_cross() -> None:
     made = faps_of_arkit(take_of(eyeBlinkLeft=1, eyeLookDownLeft=0.6, eyeSquintLeft=0.7, eyeBlinkRight=0.5))
     assert made.values[0, 18] + made.values[0, 20] == pytest.approx(1024)

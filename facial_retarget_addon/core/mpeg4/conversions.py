@@ -72,7 +72,8 @@ def faps_of_arkit(take: ArkitTake) -> FapStream:
     """FAPs of a take of ARKit weights: each shape's recipe times its weight.
 
     Lids that blink, look down and squint at once would cross: the upper one stops at the lower one. Where the take has
-    the angles of the eyes, they and not the eyeLook shapes turn the eyes; angles of the head give FAPs 48 to 50.
+    the angles of the eyes, they and not the eyeLook shapes turn the eyes; angles of the head give FAPs 48 to 50. Angles
+    that are 0 in every frame were not recorded: many tools write such columns.
 
     Live Link Face records radians, positive where the gaze goes to the subject's right (yaw) and down (pitch), and
     where the head leans to the subject's left (roll). For the eyes of recorded takes this is measured: yaw and pitch
@@ -84,10 +85,10 @@ def faps_of_arkit(take: ArkitTake) -> FapStream:
     recipes = recipe_matrix(ARKIT.values())
     values: FloatArray = weights @ recipes
     used = recipes.any(axis=0)
-    if take.eyes is not None:
+    if take.eyes is not None and take.eyes.any():
         for number, column, sign in _EYES:
             values[:, number - 1] = sign * take.eyes[:, column] / ANGLE
-    if take.head is not None:
+    if take.head is not None and take.head.any():
         yaw, pitch, roll = np.asarray(take.head, np.float64).T
         values[:, 47:50] = np.stack([pitch, -yaw, -roll], axis=1) / ANGLE
         used[47:50] = True
