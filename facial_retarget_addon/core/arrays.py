@@ -18,6 +18,15 @@ def no_progress(share: float, what: str) -> None:
     """A Progress that says nothing."""
 
 
+def progress_part(progress: Progress, first: float, last: float) -> Progress:
+    """Progress of a part of the work that lies between two shares of the whole."""
+
+    def part(share: float, what: str) -> None:
+        progress(first + share * (last - first), what)
+
+    return part
+
+
 def unit_vectors(vectors: FloatArray) -> FloatArray:
     """Vectors (..., 3) divided by their lengths; a zero vector stays zero."""
     lengths = np.sqrt(np.einsum("...i,...i->...", vectors, vectors))[..., None]

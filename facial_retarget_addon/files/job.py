@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
@@ -12,7 +11,7 @@ from ..core.errors import RetargetError
 from ..core.methods import METHODS
 from ..core.methods.settings import SETTINGS, Settings, read_settings
 from .documents import Table, fault_sentence, read_toml
-from .whole import write_whole
+from .whole import overwritten, write_whole
 
 VERSION = 1
 
@@ -108,7 +107,7 @@ def read_job(path: Path) -> Job:
     )
     root.no_more()
     if not wrong:
-        wrong += _overwritten(job)
+        wrong += overwritten({"the job file": job.path, **job.inputs()}, job.outputs())
     if wrong:
         raise RetargetError(fault_sentence(path, wrong))
     return job
@@ -162,20 +161,6 @@ def _path(table: Table, key: str, folder: Path) -> Path:
 
 def _optional_path(table: Table, key: str, folder: Path) -> Path | None:
     return _path(table, key, folder) if table.optional(key, str) is not None else None
-
-
-def _overwritten(job: Job) -> list[str]:
-    """Outputs that would replace an input, the job itself or each other."""
-    taken = {"the job file": job.path, **job.inputs()}
-    wrong: list[str] = []
-    for name, path in job.outputs().items():
-        wrong += [
-            f"{name} and {other} are one file, expected different ones"
-            for other, used in taken.items()
-            if os.path.abspath(used) == os.path.abspath(path)
-        ]
-        taken[name] = path
-    return wrong
 
 
 def write_job(job: Job, path: Path) -> None:

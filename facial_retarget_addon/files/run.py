@@ -10,7 +10,7 @@ from typing import Any, NamedTuple, ParamSpec, TypeVar
 
 import numpy as np
 
-from ..core.arrays import FloatArray, Progress, no_progress
+from ..core.arrays import FloatArray, Progress, no_progress, progress_part
 from ..core.checks import faults, warnings
 from ..core.errors import RetargetError
 from ..core.points import FeaturePoints
@@ -69,7 +69,7 @@ def run_job(path: Path, progress: Progress = no_progress) -> dict[str, Any]:
     if wrong or inputs is None or inputs.frames is None:
         raise RetargetError("; ".join([*wrong, *_problem_faults(inputs, job)]))
     seconds = {"read": time.perf_counter() - start}
-    result = retarget(job.method, inputs.problem, job.settings, inputs.frames, _part(progress, 0.1, 0.9))
+    result = retarget(job.method, inputs.problem, job.settings, inputs.frames, progress_part(progress, 0.1, 0.9))
     report = {"job": job.path.name, **result.report}
     report["seconds"] = seconds | report.get("seconds", {})
     progress(0.9, "Writing")
@@ -177,12 +177,3 @@ class _Reading:
         if files.points is None:
             return FeaturePoints((), np.empty((0, 3), np.int64), np.empty((0, 3)))
         return None if face is None else self.attempt(read_points, files.points, face.mesh)
-
-
-def _part(progress: Progress, first: float, last: float) -> Progress:
-    """Progress of a part of the work that lies between two shares of the whole."""
-
-    def part(share: float, what: str) -> None:
-        progress(first + share * (last - first), what)
-
-    return part

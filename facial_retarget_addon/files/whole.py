@@ -6,7 +6,7 @@ import errno
 import os
 import secrets
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -98,6 +98,28 @@ def check_place(path: Path, replaces: str = "") -> None:
             _check_replaceable(path, replaces)
     except OSError as error:
         raise RetargetError(f"{path} cannot be written: {_reason(error)}") from error
+
+
+def overwritten(inputs: Mapping[str, Path], outputs: Mapping[str, Path]) -> list[str]:
+    """What is wrong with outputs that would replace an input or each other, with them or with the folder around them.
+
+    Parameters
+    ----------
+    inputs, outputs : how messages name each one -> its path.
+    """
+    taken = {name: Path(os.path.abspath(path)) for name, path in inputs.items()}
+    wrong: list[str] = []
+    for name, place in outputs.items():
+        path = Path(os.path.abspath(place))
+        for other, used in taken.items():
+            if used == path:
+                wrong.append(f"{name} and {other} are one file, expected different ones")
+            elif used.is_relative_to(path):
+                wrong.append(f"{other} lies in {name}, a folder that is replaced; expected it elsewhere")
+            elif other in outputs and path.is_relative_to(used):
+                wrong.append(f"{name} lies in {other}, a folder that is replaced; expected it elsewhere")
+        taken[name] = path
+    return wrong
 
 
 def _check_replaceable(folder: Path, replaces: str) -> None:
