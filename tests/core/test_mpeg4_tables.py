@@ -10,7 +10,7 @@ import pytest
 
 from facial_retarget_addon.core.mpeg4.arkit import ARKIT
 from facial_retarget_addon.core.mpeg4.expressions import EXPRESSIONS
-from facial_retarget_addon.core.mpeg4.faps import FAPS, X, Y, Z
+from facial_retarget_addon.core.mpeg4.faps import FAPS, Fap, X, Y, Z
 from facial_retarget_addon.core.mpeg4.fdps import FDPS
 from facial_retarget_addon.core.mpeg4.recipes import Recipe, mirrored
 from facial_retarget_addon.core.mpeg4.sets import SETS
@@ -230,3 +230,64 @@ def test_expressions_show_what_the_standard_says_of_them() -> None:
         assert {number: np.sign(recipe.get(number, 0)) for number in wanted} == wanted, name
     assert EXPRESSIONS["fear"].recipe[31] > EXPRESSIONS["fear"].recipe[35]
     assert all(min(lip_gap(EXPRESSIONS[name].recipe)) > 0 for name in ("joy", "surprise"))
+
+
+# ---- the page ---------------------------------------------------------------------------------------
+def acts(fap: Fap) -> str:
+    if fap.axis is None:
+        return {"scale": "size", "roll": "edges turn"}.get(fap.kind, "")
+    return f"{'turns about ' if fap.kind == 'rotation' else ''}{'+' if fap.sign > 0 else '-'}{'xyz'[fap.axis]}"
+
+
+def amounts(recipe: Recipe) -> str:
+    """Of a symmetric recipe the left half and the middle."""
+    symmetric = mirrored(recipe) == recipe
+    shown = {number: value for number, value in recipe.items() if not symmetric or number <= FAPS[number - 1].mirror}
+    return ", ".join(f"{number}: {value}" for number, value in shown.items())
+
+
+def documented_tables() -> dict[str, list[list[str]]]:
+    """Heading of each table of the page -> its rows."""
+    moved = {name: [str(fap.number) for fap in FAPS if name in fap.points] for name in FDPS}
+    return {
+        "| point | where it lies | the standard's place | moved by FAPs | here |": [
+            [
+                point.name,
+                point.meaning,
+                point.place,
+                ", ".join(moved[point.name]),
+                "anchored" if point.anchored else point.rides_on and f"rides on {point.rides_on}",
+            ]
+            for point in FDPS.values()
+        ],
+        "| FAP | name | what moves: where to | unit | points | acts | one way | mirror |": [
+            [
+                str(fap.number),
+                f"`{fap.name}`",
+                fap.meaning,
+                fap.unit,
+                ", ".join(fap.points),
+                acts(fap),
+                "yes" if fap.one_way else "",
+                f"{'-' if fap.mirror_sign < 0 else ''}{fap.mirror}",
+            ]
+            for fap in FAPS
+        ],
+        "| number | expression | what shows | FAPs, left half and middle |": [
+            [str(one.number), one.name, one.meaning, amounts(one.recipe)] for one in EXPRESSIONS.values()
+        ],
+        "| number | viseme | phonemes (SAMPA) | what the mouth does | FAPs, left half and middle |": [
+            [str(one.number), f"`{one.name}`", " ".join(one.phonemes), one.meaning, amounts(one.recipe)]
+            for one in VISEMES.values()
+        ],
+        "| ARKit shape | FAPs at weight 1 |": [
+            [f"`{name}`", amounts(recipe)] for name, recipe in ARKIT.items() if not name.endswith("Right")
+        ],
+    }
+
+
+def test_the_page_shows_the_tables_as_they_are() -> None:
+    page = (Path(__file__).parents[2] / "docs" / "mpeg4.md").read_text()
+    for heading, rows in documented_tables().items():
+        table = page.partition(heading)[2].lstrip("\n").split("\n\n")[0].splitlines()[1:]
+        assert [[cell.strip() for cell in line.strip("|").split("|")] for line in table] == rows, heading
