@@ -9,8 +9,9 @@ from time import perf_counter
 import bpy
 import numpy as np
 
-from facial_retarget_addon.bridge.bake import ensure_key, key_name, write_frames
+from facial_retarget_addon.bridge.bake import key_name, write_frames
 from facial_retarget_addon.bridge.meshes import new_object
+from facial_retarget_addon.bridge.shape_keys import ensure_key
 
 from .timing import Row
 

@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import re
 
-import bpy
 import numpy as np
-from bpy.types import ActionChannelbag, Key, Object, ShapeKey
-from bpy.utils import escape_identifier
+from bpy.types import Object
 
 from ..core.arrays import FloatArray
 from ..core.errors import RetargetError
+from .curves import ensure_curves, find_curves, remove_curves, write_curve
 from .meshes import from_face_space
-
-LINEAR = 1  # a keyframe's interpolation, as the number that foreach_set wants
+from .shape_keys import ensure_basis, ensure_key, remove_keys, value_path, write_key
 
 
 def key_name(frame: int) -> str:
@@ -38,73 +36,27 @@ def write_frames(thing: Object, frames: FloatArray, first: int) -> None:
             f"frames of {frames.shape[1]} vertices arrived for object {thing.name!r}, "
             f"expected its {len(thing.data.vertices)}"
         )
-    positions = np.ascontiguousarray(from_face_space(thing, frames), np.float32).reshape(len(frames), -1)
+    positions = from_face_space(thing, frames)
     names = [key_name(first + i) for i in range(len(frames))]
     ensure_basis(thing)
-    _remove_bake(thing, keep=set(names))
-    for name, flat in zip(names, positions, strict=True):
-        # key.points copies float32 as a block; key.data is two orders slower.
-        ensure_key(thing, name).points.foreach_set("co", flat)
-    _write_curves(thing.data.shape_keys, names, first)
+    remove_frames(thing, keep=set(names))
+    for name, places in zip(names, positions, strict=True):
+        write_key(ensure_key(thing, name), places)
+    keys = thing.data.shape_keys
+    bag = ensure_curves(keys, f"{keys.name} retargeted")
+    for frame, name in enumerate(names, start=first):
+        # On at its own frame, off at the two beside it.
+        write_curve(bag, value_path(name), np.arange(frame - 1, frame + 2), np.array([0, 1, 0]))
     thing.data.update()
 
 
-def ensure_basis(thing: Object) -> ShapeKey:
-    """The object's Basis, made if it has no shape keys."""
-    if thing.data.shape_keys is None:
-        thing.shape_key_add(name="Basis", from_mix=False)
-    return thing.data.shape_keys.reference_key
-
-
-def ensure_key(thing: Object, name: str) -> ShapeKey:
-    """The shape key of this name; a new one equals the Basis and has value 0."""
-    ensure_basis(thing)
-    key = thing.data.shape_keys.key_blocks.get(name)
-    if key is None:
-        key = thing.shape_key_add(name=name, from_mix=False)
-        key.value = 0.0  # from Blender 5.0 a new key starts at 1
-    return key
-
-
-def _remove_bake(thing: Object, keep: set[str]) -> None:
-    """Remove the frames of an earlier bake, and the curves of all of them."""
-    baked = [key.name for key in thing.data.shape_keys.key_blocks if re.fullmatch(r"frame_-?\d{3,}", key.name)]
-    bag = _channelbag(thing.data.shape_keys)
-    paths = {value_path(name) for name in baked}
-    for curve in [curve for curve in bag.fcurves if curve.data_path in paths]:
-        bag.fcurves.remove(curve)
-    for name in baked:
-        if name not in keep:
-            thing.shape_key_remove(thing.data.shape_keys.key_blocks[name])
-
-
-def value_path(name: str) -> str:
-    """Data path of a shape key's value."""
-    return f'key_blocks["{escape_identifier(name)}"].value'
-
-
-def _write_curves(keys: Key, names: list[str], first: int) -> None:
-    """One curve per shape key: 1 at its own frame, 0 at the two beside it."""
-    bag = _channelbag(keys)
-    for frame, name in enumerate(names, start=first):
-        curve = bag.fcurves.new(value_path(name))
-        curve.keyframe_points.add(3)
-        curve.keyframe_points.foreach_set("co", (frame - 1, 0.0, frame, 1.0, frame + 1, 0.0))
-        curve.keyframe_points.foreach_set("interpolation", (LINEAR,) * 3)
-        curve.update()
-
-
-def _channelbag(keys: Key) -> ActionChannelbag:
-    """Where the curves of shape keys lie: in the action they have, or in a new one.
-
-    Slots and channelbags exist from Blender 4.4; `Action.fcurves` is gone in 5.0.
-    """
-    animation = keys.animation_data or keys.animation_data_create()
-    if animation.action is None:
-        animation.action = bpy.data.actions.new(f"{keys.name} retargeted")
-    action = animation.action
-    if animation.action_slot is None:
-        animation.action_slot = action.slots.new(id_type="KEY", name=keys.name)
-    layer = action.layers[0] if action.layers else action.layers.new("Layer")
-    strip = layer.strips[0] if layer.strips else layer.strips.new(type="KEYFRAME")
-    return strip.channelbag(animation.action_slot, ensure=True)
+def remove_frames(thing: Object, keep: set[str] = frozenset()) -> None:
+    """Remove the frames of an earlier bake, but not the keys to keep, and the curves of all of them."""
+    keys = thing.data.shape_keys
+    if keys is None:
+        return
+    baked = [key.name for key in keys.key_blocks if re.fullmatch(r"frame_-?\d{3,}", key.name)]
+    bag = find_curves(keys)
+    if bag is not None:
+        remove_curves(bag, {value_path(name) for name in baked})
+    remove_keys(thing, [name for name in baked if name not in keep])

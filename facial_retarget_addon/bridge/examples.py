@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-import numpy as np
 from bpy.types import Object, PropertyGroup
 
 from ..core.arrays import FloatArray
 from ..core.errors import RetargetError
-from .bake import ensure_key
+from ..core.mpeg4.expressions import EXPRESSIONS
 from .meshes import to_face_space
-
-EXPRESSIONS = ("joy", "sadness", "anger", "fear", "disgust", "surprise")
-"""With the Basis, which is the neutral, the seven examples of Na and Jung."""
+from .shape_keys import ensure_key, find_key, key_displacement, write_key
 
 
 def create_examples(task: PropertyGroup) -> None:
-    """List the seven examples, and give both faces the shape keys that they lack."""
+    """List the seven examples, and give both faces the shape keys that they lack: the Basis is the neutral one."""
     for name in EXPRESSIONS:
         if name not in task.examples:
             task.examples.add().name = name
@@ -25,7 +22,7 @@ def create_examples(task: PropertyGroup) -> None:
 
 def write_example(thing: Object, name: str, positions: FloatArray) -> None:
     """Set the shape key of an example: positions (V, 3) in the object's own coordinates."""
-    ensure_key(thing, name).points.foreach_set("co", np.ascontiguousarray(positions, np.float32).ravel())
+    write_key(ensure_key(thing, name), positions)
 
 
 def read_examples(task: PropertyGroup) -> tuple[dict[str, FloatArray], dict[str, FloatArray]]:
@@ -52,11 +49,7 @@ def read_examples(task: PropertyGroup) -> tuple[dict[str, FloatArray], dict[str,
 
 
 def _displacement(thing: Object, name: str) -> FloatArray:
-    keys = thing.data.shape_keys
-    key = keys.key_blocks.get(name) if keys is not None else None
+    key = find_key(thing, name)
     if key is None:
         raise RetargetError(f"object {thing.name!r} has no shape key {name!r}, expected one for the example")
-    start, end = (np.empty(3 * len(thing.data.vertices), np.float32) for _ in range(2))
-    key.relative_key.points.foreach_get("co", start)
-    key.points.foreach_get("co", end)
-    return to_face_space(thing, (end.astype(np.float64) - start).reshape(-1, 3))
+    return to_face_space(thing, key_displacement(key))

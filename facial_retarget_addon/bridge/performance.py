@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 import numpy as np
@@ -37,20 +37,34 @@ def read_frame(context: Context, thing: Object, frame: int) -> FloatArray:
     return evaluated_positions(thing, context.evaluated_depsgraph_get())
 
 
-def read_frames(context: Context, thing: Object, frames: range) -> Steps[FloatArray]:
-    """Read a performance, a frame at each step; returns (F, V, 3) float32 in face space.
+def each_frame(scene: Scene, frames: range, read: Callable[[int, int], None]) -> Steps[None]:
+    """Call `read(i, frame)` for each frame, one at each step.
 
     The scene's frame is put back at the end, and when the steps are closed half-way.
 
     Raises
     ------
-    RetargetError : if there is no frame, or as `read_frame`.
+    RetargetError : if there is no frame.
     """
     if not len(frames):
         raise RetargetError(f"the frame range ends at {frames.stop - 1} before it starts at {frames.start}")
-    read = np.empty((len(frames), len(thing.data.vertices), 3), np.float32)
-    with frame_kept(context.scene):
+    with frame_kept(scene):
         for i, frame in enumerate(frames):
-            read[i] = read_frame(context, thing, frame)
+            read(i, frame)
             yield (i + 1) / len(frames), f"Reading frame {frame}"
-    return read
+
+
+def read_frames(context: Context, thing: Object, frames: range) -> Steps[FloatArray]:
+    """Read a performance; returns (F, V, 3) float32 in face space.
+
+    Raises
+    ------
+    RetargetError : as `each_frame` and `read_frame`.
+    """
+    positions = np.empty((len(frames), len(thing.data.vertices), 3), np.float32)
+
+    def read(i: int, frame: int) -> None:
+        positions[i] = read_frame(context, thing, frame)
+
+    yield from each_frame(context.scene, frames, read)
+    return positions
