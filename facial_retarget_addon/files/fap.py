@@ -15,7 +15,7 @@ from ..core.mpeg4.stream import FapStream
 from .motion_text import read_motion_lines
 from .number_rows import Row, numbers, whole_number
 from .rates import checked_rate
-from .whole import write_whole
+from .whole import Aside, written_whole
 
 VERSION = "2.1"
 VISEME_MOST = (14, 14, 63, 1)
@@ -77,6 +77,12 @@ def write_fap(stream: FapStream, path: Path) -> None:
     ------
     RetargetError : if it has no frames or a value that is not finite, or the system refuses.
     """
+    with written_whole() as aside:
+        add_fap(aside, stream, path)
+
+
+def add_fap(aside: Aside, stream: FapStream, path: Path) -> None:
+    """Write a FAP stream among outputs that appear together; the rest as in `write_fap`."""
     if not len(stream):
         raise RetargetError(f"{path} cannot be written: the FAP stream has no frames")
     wrong = np.flatnonzero(~(np.abs(stream.values) <= LARGEST_VALUE).all(axis=1))
@@ -86,7 +92,8 @@ def write_fap(stream: FapStream, path: Path) -> None:
         )
     fps = checked_rate(path, stream.fps)
     header = [VERSION, *stream.name.splitlines(), f"{fps:.0f}" if fps.is_integer() else repr(fps), str(len(stream))]
-    write_whole(path, "\n".join([" ".join(header), *_frame_lines(stream), ""]).encode("utf-8", "replace"))
+    lines = [" ".join(header), *_frame_lines(stream), ""]
+    aside.place(path).write_bytes("\n".join(lines).encode("utf-8", "replace"))
 
 
 def _statements(lines: list[str]) -> list[tuple[int, str]]:

@@ -214,6 +214,10 @@ _FORMATS: dict[str, tuple[_Reader, _Writer]] = {
 }
 
 
+SUFFIXES = tuple(_FORMATS)
+"""Of files that hold frames; "" for a folder."""
+
+
 def _format(path: Path) -> tuple[_Reader, _Writer]:
     suffix = "" if path.is_dir() else path.suffix.lower()
     if suffix not in _FORMATS:
