@@ -12,7 +12,7 @@ REPOSITORY = Path(__file__).resolve().parent.parent
 PACKAGE = REPOSITORY / "facial_retarget_addon"
 ROOMS = {
     "core": ({"numpy", "scipy", "embreex"}, {"core"}),
-    "files": ({"numpy"}, {"core", "files"}),
+    "files": ({"numpy", "c3d"}, {"core", "files"}),
     "demo": ({"numpy", "scipy"}, {"core", "demo"}),
     "bridge": ({"numpy", "bpy", "mathutils", "bpy_extras"}, {"core", "files", "bridge", "properties", "demo"}),
 }
@@ -80,7 +80,7 @@ def test_panels_hold_no_logic() -> None:
     assert not wrong
 
 
-def test_core_and_files_load_without_blender() -> None:
+def test_core_and_files_load_without_blender_and_c3d() -> None:
     program = """
 import importlib, pkgutil, sys
 import facial_retarget_addon
@@ -88,7 +88,7 @@ for name in ("core", "files", "demo"):
     room = importlib.import_module(f"facial_retarget_addon.{name}")
     for module in pkgutil.walk_packages(room.__path__, room.__name__ + "."):
         importlib.import_module(module.name)
-sys.exit(", ".join(sorted({"bpy", "mathutils"} & set(sys.modules))) or None)
+sys.exit(", ".join(sorted({"bpy", "mathutils", "c3d"} & set(sys.modules))) or None)
 """
     run = subprocess.run([sys.executable, "-c", program], cwd=REPOSITORY, capture_output=True, text=True)
     assert run.returncode == 0, run.stderr

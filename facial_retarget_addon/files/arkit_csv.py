@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Literal
@@ -13,9 +12,11 @@ from ..core.arrays import FloatArray, IntArray
 from ..core.errors import RetargetError
 from ..core.mpeg4.arkit import ARKIT
 from ..core.mpeg4.arkit_take import ArkitTake
-from .csv_table import CsvTable, read_csv_table
+from .csv_table import CsvRow, CsvTable, letters, read_csv_table
+from .csv_times import rows_timing
+from .documents import MOST_FAULTS
 from .number_rows import numbers
-from .rates import check_gaps, check_growing, checked_rate, frames_of_times
+from .rates import checked_rate, frames_of_times
 from .timecode import Clock, timecode_seconds
 from .whole import write_whole
 
@@ -26,8 +27,6 @@ WEIGHTS = tuple(name[0].upper() + name[1:] for name in ARKIT)
 """The 52 weights as Live Link Face spells and orders them."""
 HEAD = ("HeadYaw", "HeadPitch", "HeadRoll")
 EYES = ("LeftEyeYaw", "LeftEyePitch", "LeftEyeRoll", "RightEyeYaw", "RightEyePitch", "RightEyeRoll")
-TIMES = ("time", "times", "timesec", "timeseconds", "timestamp", "seconds")
-"""Names of a column of seconds, without what is no letter."""
 LARGEST_WEIGHT = 2.0
 """ARKit's weights go to 1 and a little beyond; larger ones were recorded in another unit, such as percent."""
 
@@ -54,20 +53,22 @@ def read_arkit_csv(path: Path, fps: float | None = None, gaps: Gaps = "fill") ->
 
 def has_arkit_names(table: CsvTable) -> bool:
     """Whether any column holds an ARKit weight."""
-    return not _columns(table).keys().isdisjoint(map(_letters, WEIGHTS))
+    return not table.columns.keys().isdisjoint(map(letters, WEIGHTS))
 
 
 def arkit_take(table: CsvTable, fps: float | None = None, gaps: Gaps = "fill") -> ArkitTake:
     """The take that a table holds; see `read_arkit_csv`."""
     if not has_arkit_names(table):
         raise RetargetError(f"{table.path} is no ARKit CSV: none of its columns is named like one of the 52 weights")
-    columns = _columns(table)
-    extra = tuple(part for part in (HEAD, EYES) if any(_letters(name) in columns for name in part))
+    columns = table.columns
+    extra = tuple(part for part in (HEAD, EYES) if any(letters(name) in columns for name in part))
     wanted = [name for part in (WEIGHTS, *extra) for name in part]
-    missing = [name for name in wanted if _letters(name) not in columns]
+    missing = [name for name in wanted if letters(name) not in columns]
     if missing:
-        raise RetargetError(f"{table.path} has no column {', '.join(missing)}")
-    places = [columns[_letters(name)] for name in wanted]
+        named = ", ".join(missing[:MOST_FAULTS])
+        more = f" and {len(missing) - MOST_FAULTS} more" if len(missing) > MOST_FAULTS else ""
+        raise RetargetError(f"{table.path} has no column {named}{more}")
+    places = [columns[letters(name)] for name in wanted]
     weighted = places[: len(WEIGHTS)]
     rows = [(line, cells) for line, cells in table.rows() if any(cells[place].strip() for place in weighted)]
     if not rows:
@@ -112,15 +113,6 @@ def write_arkit_csv(take: ArkitTake, path: Path) -> None:
     write_whole(path, "\n".join(text).encode())
 
 
-def _letters(name: str) -> str:
-    return re.sub(r"[\W_]", "", name).lower()
-
-
-def _columns(table: CsvTable) -> dict[str, int]:
-    """Column of each name; of two that are the same the first."""
-    return {_letters(name): place for place, name in reversed([*enumerate(table.names)])}
-
-
 def _check_values(path: Path, lines: Sequence[int], values: FloatArray) -> None:
     bad = np.flatnonzero(~np.isfinite(values).all(axis=1))
     if len(bad):
@@ -133,33 +125,14 @@ def _check_values(path: Path, lines: Sequence[int], values: FloatArray) -> None:
         )
 
 
-def _timing(
-    table: CsvTable, rows: list[tuple[int, list[str]]], fps: float | None
-) -> tuple[float, IntArray, tuple[str, ...]]:
+def _timing(table: CsvTable, rows: list[CsvRow], fps: float | None) -> tuple[float, IntArray, tuple[str, ...]]:
     """Rate, frame number of each row from 0, and the timecodes."""
-    columns = _columns(table)
-    path = table.path
-    if "timecode" in columns:
-        timecodes = tuple(cells[columns["timecode"]].strip() for _, cells in rows)
-        seconds, _ = timecode_seconds(path, timecodes)
-        return (*frames_of_times(path, seconds), timecodes)
-    named = next((name for name in TIMES if name in columns), None)
-    if named is not None:
-        return (*frames_of_times(path, _column(table, rows, columns[named])), ())
-    stated = table.settings.get("fps", fps)
-    if stated is None:
-        raise RetargetError(f"{path} has no timecodes and no times, expected one of them or the frames a second")
-    if "frame" not in columns:
-        return checked_rate(path, stated), np.arange(len(rows)), ()
-    frames = np.rint(_column(table, rows, columns["frame"]))
-    check_growing(path, np.diff(frames))
-    check_gaps(path, frames - frames[0])
-    return checked_rate(path, stated), (frames - frames[0]).astype(np.int64), ()
-
-
-def _column(table: CsvTable, rows: list[tuple[int, list[str]]], place: int) -> FloatArray:
-    """(N,) the numbers of a column."""
-    return numbers(table.path, ((line, [cells[place]]) for line, cells in rows))
+    place = table.columns.get("timecode")
+    if place is None:
+        return (*rows_timing(table, rows, fps), ())
+    timecodes = tuple(cells[place].strip() for _, cells in rows)
+    seconds, _ = timecode_seconds(table.path, timecodes)
+    return (*frames_of_times(table.path, seconds), timecodes)
 
 
 def _filled(frames: IntArray, values: FloatArray, timecodes: tuple[str, ...]) -> tuple[FloatArray, tuple[str, ...]]:

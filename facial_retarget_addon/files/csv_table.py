@@ -6,6 +6,7 @@ import csv
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 
 from ..core.errors import RetargetError
@@ -20,6 +21,9 @@ _SETTINGS = {
     "units": "units",
 }
 _SETTING = re.compile(r"[#\s\"]*([A-Za-z][A-Za-z _]*?)[\"\s]*[,;:=\t][\"\s]*([^,;\t\"]+)[,;\t\"\s]*")
+
+CsvRow = tuple[int, list[str]]
+"""The number of a row's line, from 1, and its cells."""
 
 
 @dataclass(frozen=True)
@@ -40,8 +44,13 @@ class CsvTable:
     _first: int
     _delimiter: str
 
-    def rows(self) -> Iterator[tuple[int, list[str]]]:
-        """Line number and cells of each row that is not empty.
+    @cached_property
+    def columns(self) -> dict[str, int]:
+        """Place of each column by the letters of its name; of two alike the first."""
+        return {letters(name): place for place, name in reversed([*enumerate(self.names)])}
+
+    def rows(self) -> Iterator[CsvRow]:
+        """The rows that are not empty.
 
         Raises
         ------
@@ -60,6 +69,11 @@ class CsvTable:
                     )
         except csv.Error as error:
             raise RetargetError(f"{self.path}: line {self._first + reader.line_num} is malformed: {error}") from error
+
+
+def letters(name: str) -> str:
+    """A column's name without blanks, signs and case."""
+    return re.sub(r"[\W_]", "", name).lower()
 
 
 def read_csv_table(path: Path, kind: str) -> CsvTable:

@@ -96,7 +96,7 @@ def test_a_plain_table_without_times_needs_a_rate(tmp_path):
     weights = take().weights
     text = plain([*WEIGHTS], weights)
     (tmp_path / PATH).write_text(text)
-    with pytest.raises(RetargetError, match="no timecodes and no times"):
+    with pytest.raises(RetargetError, match="has no times, expected a column of seconds"):
         read_arkit_csv(tmp_path / PATH)
     assert read_arkit_csv(tmp_path / PATH, fps=48).fps == 48
     (tmp_path / PATH).write_text("# fps: 24\n" + text)
