@@ -14,6 +14,12 @@ from .fdps import FDPS
 LIDS = {"3.1": "3.3", "3.3": "3.1", "3.2": "3.4", "3.4": "3.2"}
 """A lid's middle -> the middle of the lid that it closes on."""
 
+FOLLOWERS: dict[int, dict[str, float]] = {
+    16: {"2.8": 0.75, "2.9": 0.75, "2.4": 0.15, "2.5": 0.15, "8.3": 0.15, "8.4": 0.15},
+    17: {"2.6": 0.75, "2.7": 0.75, "2.4": 0.15, "2.5": 0.15, "8.3": 0.15, "8.4": 0.15},
+}
+"""Shares of a lip's forward push that its other points follow with; the standard states its middle alone."""
+
 
 class PointChannels:
     """What each FAP does to a face's feature points; linear in the FAPs.
@@ -72,6 +78,9 @@ class PointChannels:
         for rider, at in self._row.items():
             if rider in FDPS and FDPS[rider].rides_on == name:
                 motion[at] = motion[row]
+        for follower, share in FOLLOWERS.get(fap.number, {}).items():
+            if follower in self._row:
+                motion[self._row[follower]] = share * motion[row]
         self.measurable[column] = name not in ("3.5", "3.6") and motion[row].any()
 
     def _roll(self, column: int, places: FloatArray, fapu: Fapu) -> None:

@@ -46,6 +46,7 @@ MEAN_FACE: dict[str, tuple[float, float, float]] = {
     "5.2": (-0.63, -0.68, 0.08),
     "5.3": (1.00, -0.49, -0.32),
     "5.4": (-1.00, -0.49, -0.32),
+    "7.1": (0.00, -0.90, -1.35),
     "8.1": (0.00, -1.01, 0.42),
     "8.2": (0.00, -1.26, 0.37),
     "8.3": (0.39, -1.12, 0.16),
@@ -67,7 +68,7 @@ MEAN_FACE: dict[str, tuple[float, float, float]] = {
 }
 """FDP -> place in eye separations from the middle between the eyes; axes left, up, forward.
 
-The mean of four heads by different artists, measured by us and made symmetric.
+The mean of four heads by different artists, measured by us and made symmetric; 7.1 and the pupils by judgement.
 """
 
 

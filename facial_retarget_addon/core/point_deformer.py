@@ -1,0 +1,223 @@
+"""A surface that follows its feature points: one sparse matrix, so that a frame is a product.
+
+The weights of Kshirsagar et al. (`point_weights`), then three things of our own, in the default variant: lids close
+along their whole width and over the eyeball, the shares are evened out along the surface, and every point arrives
+exactly where it is sent.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.sparse.linalg import splu
+
+from .arrays import BoolArray, FloatArray
+from .eyeballs import Eyeball, find_eyeballs
+from .eyelids import Lid, find_lids, over_the_ball
+from .mesh import TriMesh
+from .point_weights import LEAST, point_weights
+from .points import FeaturePoints
+
+LID_REACH = 0.75
+"""How far a lid reaches towards the nearest brow, as a share of the way."""
+LID_GAPS = 1.5
+"""How far a lid reaches on a face without brow points, in gaps between the lids."""
+SMOOTH = 0.018
+"""How far shares are evened out along the surface, as a share of the points' extent."""
+FAINT = 1e-3
+"""Evened-out shares below this are none."""
+CROWDED = 1e6
+"""Condition from which points are too crowded on a mesh to move independently."""
+
+
+@dataclass(frozen=True, eq=False)
+class PointDeformer:
+    """A surface's displacement for any displacement of its points; linear.
+
+    Attributes
+    ----------
+    axes : (3, 3) rows: the axes that the weights were found for.
+    matrix : (3V, 3P) csr float32, from the points' displacements to the vertices', both in those axes.
+    arcs : (3V, L) csr float32, what lifts each lid's skin over the eyeball when the lid is half shut, in those axes.
+    eyeballs : by side.
+    lids : whose margins were found.
+    warnings : what an artist should know.
+    """
+
+    axes: FloatArray
+    matrix: sp.csr_matrix
+    arcs: sp.csr_matrix
+    eyeballs: dict[str, Eyeball]
+    lids: tuple[Lid, ...]
+    warnings: tuple[str, ...]
+
+    def displacements(self, points: FloatArray) -> FloatArray:
+        """Displacements (F, V, 3) float32 of the vertices for (F, P, 3) of the points, in the object's axes."""
+        turned = (np.asarray(points, np.float64) @ self.axes.T).astype(np.float32)
+        moved = self.matrix @ turned.reshape(len(turned), -1).T
+        back: FloatArray = np.ascontiguousarray(moved.T).reshape(len(turned), -1, 3) @ self.axes.astype(np.float32)
+        return back
+
+
+def fit_deformer(
+    mesh: TriMesh, points: FeaturePoints, axes: FloatArray, acting: BoolArray, variant: str = "default"
+) -> PointDeformer:
+    """Weights of a surface's points.
+
+    Parameters
+    ----------
+    mesh : V vertices.
+    points : P places on it.
+    axes : (3, 3) rows left, up, forward of the head.
+    acting : (P, 3) whether a point moves or holds the surface along an axis.
+    variant : default, or paper for the weights as published and nothing else.
+
+    Raises
+    ------
+    RetargetError : for faces or places that do not fit.
+    """
+    eyeballs = find_eyeballs(mesh, points, axes)
+    acting = acting & ~_on_eyeballs(mesh, points, eyeballs)[:, None]
+    if variant == "paper":
+        blocks = point_weights(mesh, points, acting, variant)
+        arcs = sp.csr_matrix((3 * len(mesh.vertices), 0), dtype=np.float32)
+        return PointDeformer(axes, _interleaved(blocks).astype(np.float32), arcs, eyeballs, (), ())
+    lids = [lid for lid in find_lids(mesh, points, eyeballs) if acting[points.index([lid.middle])[0]].any()]
+    joined = points.joined(_guides(lids))
+    owner = points.index([lid.middle for lid in lids for _ in lid.vertices])
+    acts = np.concatenate([acting, acting[owner]])
+    weights = point_weights(mesh, joined, acts, variant, _farthest(mesh, points, lids))
+    blocks, warnings = _refined(mesh, joined, acts, weights)
+    matrix = _interleaved(blocks) @ _folded(len(points), lids, points, axes)
+    matrix, arcs = _over_the_balls(mesh, points, matrix, lids, eyeballs, axes)
+    return PointDeformer(
+        axes, matrix.astype(np.float32), arcs.astype(np.float32), eyeballs, tuple(lids), tuple(warnings)
+    )
+
+
+def _on_eyeballs(mesh: TriMesh, points: FeaturePoints, eyeballs: dict[str, Eyeball]) -> BoolArray:
+    """(P,) points that lie on an eyeball: it turns as a whole."""
+    holder = points.vertices[np.arange(len(points)), points.weights.argmax(axis=1)]
+    ball = np.zeros(len(mesh.vertices), bool)
+    for eye in eyeballs.values():
+        ball[eye.vertices] = True
+    on: BoolArray = ball[holder]
+    return on
+
+
+def _guides(lids: list[Lid]) -> FeaturePoints:
+    """The lids' guides as points on single vertices."""
+    vertices = np.concatenate([lid.vertices for lid in lids] or [np.empty(0, np.int64)])
+    names = tuple(f"{lid.middle} guide {k}" for lid in lids for k in range(len(lid.vertices)))
+    return FeaturePoints(names, np.repeat(vertices[:, None], 3, axis=1), np.tile([1.0, 0.0, 0.0], (len(vertices), 1)))
+
+
+def _farthest(mesh: TriMesh, points: FeaturePoints, lids: list[Lid]) -> FloatArray:
+    """(P + G,) where the reach of points and guides ends: a lid does not drag the brow."""
+    where = points.positions(mesh.vertices)
+    farthest = np.full(len(points) + sum(len(lid.vertices) for lid in lids), np.inf)
+    brows = where[[row for row, name in enumerate(points.names) if name.startswith("4.")]]
+    first = len(points)
+    for lid in lids:
+        middle = int(points.index([lid.middle])[0])
+        away = np.linalg.norm(brows - where[middle], axis=1).min(initial=np.inf)
+        end = min(LID_REACH * away, LID_GAPS * float(np.linalg.norm(lid.gap)))
+        farthest[middle] = farthest[first : first + len(lid.vertices)] = end
+        first += len(lid.vertices)
+    return farthest
+
+
+def _interleaved(blocks: tuple[sp.csr_matrix, ...]) -> sp.csr_matrix:
+    """(3V, 3P) from three (V, P): x, y, z of each vertex one after the other."""
+    parts = [part.tocoo() for part in blocks]
+    rows = np.concatenate([3 * part.row.astype(np.int64) + axis for axis, part in enumerate(parts)])
+    columns = np.concatenate([3 * part.col.astype(np.int64) + axis for axis, part in enumerate(parts)])
+    shape = 3 * blocks[0].shape[0], 3 * blocks[0].shape[1]
+    return sp.csr_matrix((np.concatenate([part.data for part in parts]), (rows, columns)), shape=shape)
+
+
+def _folded(count: int, lids: list[Lid], points: FeaturePoints, axes: FloatArray) -> sp.csr_matrix:
+    """(3 (P + G), 3P) what points and guides do when the points move, in the head's axes."""
+    rows, columns, values = [np.arange(3 * count)], [np.arange(3 * count)], [np.ones(3 * count)]
+    first = count
+    for lid in lids:
+        middle = int(points.index([lid.middle])[0])
+        turned = axes @ lid.guidance() @ axes.T
+        guide, row, column = np.indices(turned.shape)
+        rows.append((3 * (first + guide) + row).ravel())
+        columns.append((3 * middle + column).ravel())
+        values.append(turned.ravel())
+        first += len(lid.vertices)
+    entries = np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))
+    return sp.csr_matrix(entries, shape=(3 * first, 3 * count))
+
+
+def _refined(
+    mesh: TriMesh, points: FeaturePoints, acting: BoolArray, blocks: tuple[sp.csr_matrix, ...]
+) -> tuple[tuple[sp.csr_matrix, ...], list[str]]:
+    """The weights evened out along the surface, and then such that every point arrives where it is sent."""
+    extent = float(np.linalg.norm(np.ptp(points.positions(mesh.vertices), axis=0)))
+    areas = mesh.vertex_areas + 1e-12 * mesh.size**2
+    even = splu((sp.diags(areas) + (SMOOTH * extent) ** 2 * mesh_laplacian(mesh)).tocsc())
+    places = points.matrix(len(mesh.vertices))
+    refined, crowded = [], False
+    for axis, block in enumerate(blocks):
+        rows = np.flatnonzero(acting[:, axis])
+        shares = even.solve(areas[:, None] * block[:, rows].toarray())
+        shares[np.abs(shares) < FAINT] = 0.0
+        arriving = places[rows] @ shares
+        crowded |= bool(len(rows)) and np.linalg.cond(arriving) > CROWDED
+        sent = np.linalg.pinv(arriving, rcond=1 / CROWDED)
+        sent[np.abs(sent) < LEAST] = 0.0
+        exact = sp.coo_matrix(sp.csr_matrix(shares) @ sp.csr_matrix(sent))
+        exact.data[np.abs(exact.data) < 3 * LEAST] = 0.0
+        exact.eliminate_zeros()
+        refined.append(sp.csr_matrix((exact.data, (exact.row, rows[exact.col])), shape=block.shape))
+    crowd = "some points lie so close together for this mesh that they cannot move independently"
+    return tuple(refined), [crowd] if crowded else []
+
+
+def mesh_laplacian(mesh: TriMesh) -> sp.csr_matrix:
+    """(V, V) cotangent Laplacian, positive semi-definite, with weights kept positive; rows add up to 0."""
+    rows, columns, weights = [], [], []
+    for a, b, c in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+        i, j, k = mesh.faces[:, a], mesh.faces[:, b], mesh.faces[:, c]
+        one, other = mesh.vertices[i] - mesh.vertices[k], mesh.vertices[j] - mesh.vertices[k]
+        along = np.einsum("fi,fi->f", one, other)
+        cotangent = along / np.maximum(2 * mesh.face_areas, 1e-300)
+        rows += [i, j]
+        columns += [j, i]
+        weights += 2 * [0.5 * np.clip(cotangent, 0.02, 20.0)]
+    entries = np.concatenate(weights), (np.concatenate(rows), np.concatenate(columns))
+    pull = sp.csr_matrix(entries, shape=(len(mesh.vertices),) * 2)
+    return (sp.diags(np.asarray(pull.sum(axis=1)).ravel()) - pull).tocsr()
+
+
+def _over_the_balls(
+    mesh: TriMesh,
+    points: FeaturePoints,
+    matrix: sp.csr_matrix,
+    lids: list[Lid],
+    eyeballs: dict[str, Eyeball],
+    axes: FloatArray,
+) -> tuple[sp.csr_matrix, sp.csr_matrix]:
+    """The matrix with lids that shut outside the eyeballs, and (3V, L) their arcs on half the way."""
+    held = np.unique(points.vertices[points.weights > 0])
+    lifts, arcs = sp.lil_matrix(matrix.shape), sp.lil_matrix((matrix.shape[0], len(lids)))
+    for column, lid in enumerate(lids):
+        ball = eyeballs[lid.side]
+        middle = int(points.index([lid.middle])[0])
+        gap = axes @ lid.gap
+        shut = (matrix[:, 3 * middle : 3 * middle + 3] @ gap).reshape(-1, 3) @ axes
+        skin = np.flatnonzero(np.linalg.norm(shut, axis=1) > 1e-2 * np.linalg.norm(gap))
+        rows = (3 * skin[:, None] + np.arange(3)).ravel()
+        lift = over_the_ball(mesh, ball, skin, mesh.vertices[skin] + shut[skin])
+        lift[np.isin(skin, held)] = 0.0
+        lifts[rows, 3 * middle : 3 * middle + 3] = np.outer((lift @ axes.T).ravel(), gap / (gap @ gap))
+        halfway = mesh.vertices[skin] + 0.5 * (shut[skin] + lift)
+        arc = over_the_ball(mesh, ball, skin, halfway)
+        arc[np.isin(skin, held)] = 0.0
+        arcs[rows, column] = (arc @ axes.T).ravel()[:, None]
+    return (matrix + lifts.tocsr()).tocsr(), arcs.tocsr()
