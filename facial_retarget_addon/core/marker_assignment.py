@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 
 import numpy as np
@@ -134,11 +134,14 @@ class MarkerMap:
     points : marker -> the feature point that it sits on; no point twice.
     rigid : markers that move with the head alone; empty to find them in the take.
     neutral_frames : first and last of the frames, counted from 1, in which the actor's face is neutral.
+    gains : FAP -> what its values are multiplied by, where a marker moves less or more than the point that it stands
+        for, such as one above the edge of an eyelid.
     """
 
     points: dict[str, str]
     rigid: tuple[str, ...] = ()
     neutral_frames: tuple[int, int] = (1, 1)
+    gains: dict[int, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

@@ -8,20 +8,26 @@ from typing import Any
 from ..core.errors import RetargetError
 from ..core.head_motion import FEWEST
 from ..core.marker_assignment import MarkerMap
+from ..core.mpeg4.faps import FAPS
 from .documents import Table, fault_sentence, json_bytes, read_json
 from .whole import write_whole
 
 FORMAT = "facial-retarget/marker-map"
 VERSION = 1
+MOST_GAIN = 1000.0
+"""Gains stay below this."""
 
 
 def read_marker_map(path: Path) -> MarkerMap:
-    """Read a marker map: markers, and if they are there rigid, neutral_frame and neutral_last_frame.
+    """Read a marker map: markers, and if they are there rigid, neutral_frame, neutral_last_frame, and gains.
+
+    Gains are keyed by the names of the FAPs.
 
     Raises
     ------
     RetargetError : if the file cannot be read or is no such document, if a marker or a point appears twice, if fewer
-        than three rigid markers are named, or if the frames are no frames; names all faults.
+        than three rigid markers are named, if frames are no frames, or if gains are no numbers of FAPs; names all
+        faults.
     """
     wrong: list[str] = []
     root = Table(read_json(path), "", wrong)
@@ -30,10 +36,11 @@ def read_marker_map(path: Path) -> MarkerMap:
     points = _points(root)
     rigid = _rigid(root)
     neutral_frames = _neutral_frames(root)
+    gains = _gains(root)
     root.no_more()
     if wrong:
         raise RetargetError(fault_sentence(path, wrong))
-    return MarkerMap(points, rigid, neutral_frames)
+    return MarkerMap(points, rigid, neutral_frames, gains)
 
 
 def write_marker_map(marker_map: MarkerMap, path: Path) -> None:
@@ -48,6 +55,8 @@ def write_marker_map(marker_map: MarkerMap, path: Path) -> None:
     }
     if last != first:
         document["neutral_last_frame"] = last
+    if marker_map.gains:
+        document["gains"] = {FAPS[number - 1].name: gain for number, gain in marker_map.gains.items()}
     write_whole(path, json_bytes(document))
 
 
@@ -85,3 +94,16 @@ def _neutral_frames(root: Table) -> tuple[int, int]:
             f"neutral_frame = {first} and neutral_last_frame = {last}, expected frames counted from 1, in this order"
         )
     return first, last
+
+
+def _gains(root: Table) -> dict[int, float]:
+    numbers = {fap.name: fap.number for fap in FAPS}
+    gains: dict[int, float] = {}
+    for name, gain in (root.optional("gains", dict) or {}).items():
+        if name not in numbers:
+            root.wrong.append(f"gains has {name!r:.60}, expected the name of a FAP such as 'close_t_l_eyelid'")
+        elif type(gain) not in (int, float) or not abs(gain) < MOST_GAIN:
+            root.wrong.append(f"the gain of {name!r} is {gain!r:.60}, expected a number below {MOST_GAIN:g}")
+        else:
+            gains[numbers[name]] = float(gain)
+    return gains

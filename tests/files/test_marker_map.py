@@ -28,7 +28,7 @@ def saved(folder: Path, document: object) -> Path:
 @pytest.mark.parametrize(
     "marker_map",
     [
-        MarkerMap({"a": "2.1", "b": "glabella", "ç": "8.3"}, ("a", "b", "c"), (4, 9)),
+        MarkerMap({"a": "2.1", "b": "glabella", "ç": "8.3"}, ("a", "b", "c"), (4, 9), {19: 9.5, 20: -2.0}),
         MarkerMap({"a": "2.1"}),
         MarkerMap({}, neutral_frames=(3, 3)),
     ],
@@ -62,6 +62,9 @@ def test_a_map_by_hand_is_read(tmp_path: Path) -> None:
         ({"neutral_frame": 0}, "neutral_frame = 0"),
         ({"neutral_frame": True}, "neutral_frame = True, expected a whole number"),
         ({"neutral_last_frame": 11}, "neutral_frame = 12 and neutral_last_frame = 11"),
+        ({"gains": {"close_lid": 2}}, "gains has 'close_lid', expected the name of a FAP"),
+        ({"gains": {"open_jaw": "2"}}, "gain of 'open_jaw' is '2'"),
+        ({"gains": {"open_jaw": 10**400}}, "gain of 'open_jaw' is 1000"),
         ({"neutral": 1}, "neutral is unknown, expected one of"),
     ],
 )
