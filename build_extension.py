@@ -35,6 +35,9 @@ TAGS = {
 }
 """Blender's name of a platform -> the newest wheel tag that may be used on it."""
 
+PURE = ("c3d",)
+"""Packages of Python alone: one wheel serves every platform and Python."""
+
 WITHOUT_EMBREE = ("windows-arm64", "linux-arm64")
 """Embree has no wheels there: the extension casts rays through Blender's BVHTree."""
 
@@ -54,6 +57,7 @@ def build(out: Path, platforms: list[str]) -> list[Path]:
     """Build one zip per platform into `out`; returns their paths."""
     out.mkdir(parents=True, exist_ok=True)
     wheels = [wheel for name in platforms for wheel in fetch_wheels(name)]
+    wheels += [wheel for package in PURE for wheel in fetch(package, current_platform(), PYTHONS[0])]
     with TemporaryDirectory() as folder:
         stage = Path(folder)
         lay_out(stage, wheels)
@@ -75,19 +79,20 @@ def current_platform() -> str:
 
 
 def fetch_wheels(platform_name: str) -> list[Path]:
-    """The wheels of one platform, for every Python; those that build/wheels has are not fetched again."""
+    """The compiled wheels of one platform, for every Python."""
+    packages = ["scipy"] if platform_name in WITHOUT_EMBREE else ["scipy", "embreex"]
+    return [wheel for python in PYTHONS for package in packages for wheel in fetch(package, platform_name, python)]
+
+
+def fetch(package: str, platform_name: str, python: str) -> list[Path]:
+    """A package's pinned wheel for a platform and a Python; one that build/wheels has is not fetched again."""
     pins = dict(
         line.split("==") for line in (ROOT / "requirements" / "develop.in").read_text("utf-8").split() if "==" in line
     )
-    packages = ["scipy"] if platform_name in WITHOUT_EMBREE else ["scipy", "embreex"]
-    wheels: list[Path] = []
-    for python in PYTHONS:
-        for package in packages:
-            folder = ROOT / "build" / "wheels" / platform_name / python / f"{package}-{pins[package]}"
-            if not list(folder.glob("*.whl")):
-                run_pip_download(folder, f"{package}=={pins[package]}", TAGS[platform_name], python)
-            wheels += folder.glob("*.whl")
-    return wheels
+    folder = ROOT / "build" / "wheels" / platform_name / python / f"{package}-{pins[package]}"
+    if not list(folder.glob("*.whl")):
+        run_pip_download(folder, f"{package}=={pins[package]}", TAGS[platform_name], python)
+    return list(folder.glob("*.whl"))
 
 
 def run_pip_download(folder: Path, requirement: str, tag: str, python: str) -> None:

@@ -15,10 +15,11 @@ def shipped(archive: Path) -> list[str]:
         return content.namelist()
 
 
-def test_one_wheel_of_scipy_and_embree_for_each_python(shipped: list[str]) -> None:
+def test_one_wheel_of_scipy_and_embree_for_each_python_and_one_of_c3d(shipped: list[str]) -> None:
     wheels = [name.rpartition("/")[2].split("-") for name in shipped if name.startswith("wheels/")]
     assert sorted((parts[0], parts[2]) for parts in wheels) == [
-        (package, python) for package in ("embreex", "scipy") for python in ("cp311", "cp313", "cp314")
+        ("c3d", "py3"),
+        *((package, python) for package in ("embreex", "scipy") for python in ("cp311", "cp313", "cp314")),
     ]
 
 
