@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from .recipes import Recipe, mirrored, symmetric
 
-_LIPS_OF_THE_JAW: Recipe = {5: -1500, 10: -1200, 12: -280, 52: -1500, 57: -1000, 59: -320}
+_LIPS_OF_THE_JAW: Recipe = {5: -1500, 10: -1320, 12: -280, 52: -1500, 57: -1080, 59: -320}
 """What an opening jaw takes along of the lips' left half and middle: FAP 3 by itself leaves them behind."""
 
 _MIDDLE: dict[str, Recipe] = {
