@@ -16,6 +16,10 @@ from .rigid import fit_similarity
 
 NEAREST = 0.05
 """A marker may lie this far from the point that is proposed for it, as a share of the assigned markers' extent."""
+UNMARKABLE = frozenset(
+    [f"2.{k}" for k in range(2, 10)] + ["3.5", "3.6", "6.1", "6.2", "6.3", "6.4", "7.1", "9.8", "9.9", "9.10", "9.11"]
+)
+"""Points that no marker can sit on: the lips' inner edges, pupils, tongue, spine, teeth."""
 LONGEST_NAME = 40
 """Letters in one run of a marker's name; a longer run is no word."""
 FEWEST_FITTED = 4
@@ -198,7 +202,8 @@ def by_position(
     """Points proposed for the markers that have none yet, by where they lie. A help for the artist, who checks it.
 
     A face's points are laid over the assigned markers by the similarity that fits best. A free marker and a free point
-    are proposed to one another where each is the other's nearest and they are close.
+    are proposed to one another where each is the other's nearest and they are close, lips' inner edges and other points
+    that no marker can sit on left aside.
 
     Parameters
     ----------
@@ -229,7 +234,7 @@ def by_position(
     onto_markers = fit_similarity(point_positions[fitted_points], marker_positions[fitted_markers])
     limit = nearest * float(np.ptp(marker_positions[fitted_markers], axis=0).max())
     free_markers = [name for name in markers if name not in assigned]
-    free_points = [name for name in points if name not in assigned.values()]
+    free_points = [name for name in points if name not in UNMARKABLE.union(assigned.values())]
     if not free_markers or not free_points:
         return {}
     laid = onto_markers.apply(point_positions[[point_row[name] for name in free_points]])

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from facial_retarget_addon.core.errors import RetargetError
-from facial_retarget_addon.core.marker_assignment import by_name, by_position
+from facial_retarget_addon.core.marker_assignment import UNMARKABLE, by_name, by_position
 from facial_retarget_addon.core.mpeg4.fdps import FDPS
 from facial_retarget_addon.core.mpeg4.mean_face import MEAN_FACE
 
@@ -95,7 +95,7 @@ def test_sides_are_mirror_images() -> None:
 
 def other_face(rng: np.random.Generator) -> tuple[list[str], np.ndarray, np.ndarray]:
     """Points of the average face, and markers on the same places of a turned and larger face, a little off."""
-    names = [name for name in MEAN_FACE if name not in ("2.2", "2.3")]
+    names = [name for name in MEAN_FACE if name not in UNMARKABLE]
     places = np.array([MEAN_FACE[name] for name in names])
     turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
     turn *= np.sign(np.linalg.det(turn))
@@ -108,7 +108,9 @@ def test_points_are_proposed_by_place() -> None:
     known = [names.index(name) for name in ("2.1", "3.7", "3.12", "9.3", "11.1", "8.1")]
     assigned = {markers[k]: names[k] for k in known}
     seen[names.index("5.1")] += 20
-    proposed = by_position(markers, seen, assigned, names, places)
+    inner = sorted(UNMARKABLE & MEAN_FACE.keys())
+    points, on_face = [*names, *inner], np.concatenate([places, [MEAN_FACE[name] for name in inner]])
+    proposed = by_position(markers, seen, assigned, points, on_face)
     assert len(proposed) > 20
     assert all(names[markers.index(marker)] == point for marker, point in proposed.items())
     assert not proposed.keys() & assigned.keys()
