@@ -44,6 +44,7 @@ class FapFace:
     fapu : the face's units.
     deformer : the surface's weights.
     playable : (68,) FAPs that this face can show; the head's turns are always among them.
+    measurable : (68,) FAPs that `measure` finds.
     channels : names of the channels, C of them.
     """
 
@@ -64,6 +65,7 @@ class FapFace:
         self._moving = np.flatnonzero(self._motion.acting.ravel())
         self._eyes = [eye for eye in self.deformer.eyeballs.values() if len(eye.vertices)]
         self.playable = self._playable()
+        self.measurable: BoolArray = self._motion.measurable
         self.channels = self._names()
         self._neutral = mesh.vertices.astype(np.float32)
         self._lid_rows = [int(known.index([lid.middle])[0]) for lid in self.deformer.lids]
