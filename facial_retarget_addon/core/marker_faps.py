@@ -19,7 +19,9 @@ from .mpeg4.faps import FAPS
 from .mpeg4.fapu import Fapu, measure_fapu
 from .mpeg4.head import head_axes
 from .mpeg4.head_turn import ANGLE_UNIT, head_angles
+from .mpeg4.mean_face import MEAN_FACE
 from .mpeg4.stream import FapStream
+from .rigid import closest_rotations
 
 HEAD_FAPS = slice(47, 50)
 """Columns of pitch, yaw and roll of the head."""
@@ -27,6 +29,8 @@ ACTING_POINTS = frozenset(point for fap in FAPS if fap.kind == "translation" for
 """Points that FAPs move: markers on them are no first choice for the motion of the head."""
 UPPER_LIDS = {"3.1": 19, "3.2": 20}
 """Middles of the upper lids, and the FAPs that close them."""
+MIRRORED = 0.01
+"""An average face's mirror image fits better by this share of its extent where the sides are swapped, not by noise."""
 LIDS_APART = 0.25
 """Lid markers farther apart than this share of the eyes' distance lie beside the lids' edges; open lids are at 0.16."""
 
@@ -111,14 +115,15 @@ def marker_faps(
 
     Raises
     ------
-    RetargetError : as `marker_displacements`; if the points are too few for axes or units of the head; if a gain is for
-        a FAP that no marker measures.
+    RetargetError : as `marker_displacements`; if the points are too few for axes or units of the head; if left and
+        right seem to be swapped; if a gain is for a FAP that no marker measures.
 
     References
     ----------
     Kshirsagar et al., section 4; ISO/IEC 14496-2 for the units and the one-way FAPs.
     """
     motion = marker_displacements(take, marker_map, head, trim)
+    _check_sides(motion)
     axes = head_axes(motion.names, motion.neutral)
     fapu = measure_fapu(motion.names, motion.neutral, axes)
     channels = PointChannels(motion.names, motion.neutral, axes, fapu)
@@ -154,6 +159,22 @@ def _check(take: MarkerTake, marker_map: MarkerMap, rows: IntArray) -> None:
         raise RetargetError(
             f"markers of {take.name!r}: {take.names[rows[row]]!r} is not seen in frame {frame + 1}, "
             "expected a take whose gaps are filled"
+        )
+
+
+def _check_sides(motion: PointMotion) -> None:
+    """Left and right points that changed places make the average face's mirror image fit better."""
+    known = [row for row, name in enumerate(motion.names) if name in MEAN_FACE]
+    if len(known) <= 3:
+        return  # as good as their mirror image
+    mean = np.array([MEAN_FACE[motion.names[row]] for row in known])
+    actor = motion.neutral[known]
+    mean, actor = mean - mean.mean(axis=0), actor - actor.mean(axis=0)
+    _, singular = closest_rotations(actor.T @ mean)
+    if singular[2] < -MIRRORED * singular[0]:
+        raise RetargetError(
+            "markers: left and right seem to be swapped, the face would look backwards; expected left points on the "
+            "actor's left"
         )
 
 

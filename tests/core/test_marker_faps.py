@@ -14,6 +14,7 @@ from facial_retarget_addon.core.markers import MarkerTake
 from facial_retarget_addon.core.mpeg4.channels import PointChannels
 from facial_retarget_addon.core.mpeg4.faps import FAPS
 from facial_retarget_addon.core.mpeg4.fapu import measure_fapu
+from facial_retarget_addon.core.mpeg4.fdps import FDPS
 from facial_retarget_addon.core.mpeg4.head import head_axes
 from facial_retarget_addon.core.mpeg4.head_turn import rotation_of_angles
 from facial_retarget_addon.core.mpeg4.mean_face import MEAN_FACE
@@ -191,12 +192,23 @@ def test_a_real_take_lifts_both_cheeks(shared_data: Path) -> None:
     assert "sit beside the lids' edges" in report["warnings"][0]
 
 
+def test_swapped_sides_are_noticed(shared_data: Path) -> None:
+    swapped = {marker: FDPS[point].partner for marker, point in WHOLE_MAP.points.items()}
+    with pytest.raises(RetargetError, match="left and right seem to be swapped"):
+        marker_faps(acted(np.random.default_rng(14))[0], replace(WHOLE_MAP, points=swapped))
+    take, marker_map = real_take(shared_data, "jaw")
+    swapped = {marker: FDPS[point].partner for marker, point in marker_map.points.items() if point in FDPS}
+    with pytest.raises(RetargetError, match="left and right seem to be swapped"):
+        marker_faps(take, MarkerMap(swapped))
+
+
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
         ({"points": {"m2.1": "2.1", "m8.3": "2.1"}}, "more than one sits on 2.1"),
         ({"points": {"nobody": "2.1"}}, "'nobody' are not in the take 'acted'"),
         ({"points": {"m2.1": "2.1"}}, "no left and right MPEG-4 points"),
+        ({"points": {"m2.1": "freckle"}}, "no left and right MPEG-4 points"),
         ({"rigid": ("band0", "brow", "band2")}, "'brow' are not in the take"),
         ({"neutral_frames": (41, 41)}, "neutral frames are 41 to 41, expected frames from 1 to 40"),
         ({"neutral_frames": (3, 2)}, "neutral frames are 3 to 2"),
