@@ -1,4 +1,4 @@
-"""facial-retarget: do a job, check a job, or see the built-in demonstration.
+"""facial-retarget: do a job, check a job, play MPEG-4 motion, make shapes, or see the built-in demonstration.
 
 Exit status 0 when all went well, 2 with one line on standard error for bad input, 130 for Ctrl-C.
 """
@@ -42,12 +42,50 @@ def _parser() -> argparse.ArgumentParser:
     check = commands.add_parser("check", help="say everything that is wrong with a job")
     check.add_argument("job", type=Path, help="the job file (TOML)")
     check.set_defaults(command=_check)
+    fap = commands.add_parser(
+        "fap", help="play FAPs, ARKit weights or markers on a face, turn them into FAPs, or measure"
+    )
+    _add_fap_arguments(fap)
+    shapes = commands.add_parser("shapes", help="give a face the standard's shapes, from its feature points alone")
+    _add_shapes_arguments(shapes)
     demo = commands.add_parser("demo", help="write the built-in faces and their jobs, and do them")
     demo.add_argument("folder", type=Path, nargs="?", default=Path("demo"), help="where to (default: demo)")
     demo.set_defaults(command=_demo)
-    for command in (run, check, demo):
+    for command in (run, check, fap, shapes, demo):
         command.add_argument("--quiet", action="store_true", default=argparse.SUPPRESS, help="no progress")
     return parser
+
+
+def _add_fap_arguments(fap: argparse.ArgumentParser) -> None:
+    fap.add_argument("motion", type=Path, help=".fap, ARKit .csv, markers (.trc .c3d .bvh .csv), or a face's frames")
+    fap.add_argument("--out", type=Path, required=True, help="frames (.npz .pc2 .mdd or a folder), or .fap")
+    _add_face_arguments(fap, required=False)
+    fap.add_argument("--head", choices=("leave", "turn"), default="leave", help="whether FAPs 48 to 50 turn the head")
+    fap.add_argument("--missing", choices=("hold", "zero"), default="hold", help="what FAPs do that a frame leaves out")
+    fap.add_argument("--gaps", choices=("fill", "refuse"), default="fill", help="what becomes of hidden markers")
+    fap.add_argument("--map", type=Path, help="a marker map, where the markers' names do not say where they sit")
+    fap.add_argument("--fps", type=float, help="frames a second, where the motion does not tell")
+    fap.add_argument("--frames", default=":", help="FIRST:LAST:STEP, from 1 (default: all)")
+    fap.set_defaults(command=_fap)
+
+
+def _add_shapes_arguments(shapes: argparse.ArgumentParser) -> None:
+    shapes.add_argument(
+        "--set", action="append", required=True, help="expressions, visemes, arkit or faps; may be given several times"
+    )
+    shapes.add_argument(
+        "--out", type=Path, required=True, help="a folder of .obj, or .npz with an array for each shape"
+    )
+    _add_face_arguments(shapes, required=True)
+    shapes.set_defaults(command=_shapes)
+
+
+def _add_face_arguments(command: argparse.ArgumentParser, required: bool) -> None:
+    command.add_argument("--face", type=Path, required=required, help="the neutral face (.obj .ply .npz)")
+    command.add_argument("--points", type=Path, required=required, help="its feature points (.json)")
+    command.add_argument("--variant", choices=("default", "paper"), default="default", help="of the points' weights")
+    command.add_argument("--report", type=Path, help="where figures go (.json)")
+    command.add_argument("--page", type=Path, help="where pictures go (.html)")
 
 
 def _run(arguments: argparse.Namespace) -> int:
@@ -67,6 +105,43 @@ def _check(arguments: argparse.Namespace) -> int:
     if found.faults:
         return BAD_INPUT
     print(f"{arguments.job} is fine")
+    return 0
+
+
+def _fap(arguments: argparse.Namespace) -> int:
+    from .files.fap_task import FapTask, run_fap_task
+    from .files.frame_range import FrameRange
+    from .files.mpeg4_face import FapFaceFiles
+
+    face = None
+    if arguments.face is not None and arguments.points is not None:
+        face = FapFaceFiles(arguments.face, arguments.points, arguments.variant)
+    elif arguments.face is not None or arguments.points is not None:
+        raise RetargetError("--face and --points go together, but one of them is missing")
+    task = FapTask(
+        arguments.motion,
+        arguments.out,
+        face,
+        missing=arguments.missing,
+        gaps=arguments.gaps,
+        marker_map=arguments.map,
+        turn_head=arguments.head == "turn",
+        fps=arguments.fps,
+        chosen=FrameRange.of_text(arguments.frames),
+        report=arguments.report,
+        page=arguments.page,
+    )
+    _warn(run_fap_task(task, _progress(arguments))["warnings"])
+    return 0
+
+
+def _shapes(arguments: argparse.Namespace) -> int:
+    from .files.mpeg4_face import FapFaceFiles
+    from .files.shapes_task import ShapesTask, run_shapes_task
+
+    face = FapFaceFiles(arguments.face, arguments.points, arguments.variant)
+    task = ShapesTask(face, tuple(arguments.set), arguments.out, arguments.report, arguments.page)
+    _warn(run_shapes_task(task, _progress(arguments))["warnings"])
     return 0
 
 

@@ -44,10 +44,14 @@ class FrameRange:
             raise RetargetError(f"frames are {text!r}, expected a first one from 1, a last one after it, a step from 1")
         return frames
 
+    def __str__(self) -> str:
+        step = f":{self.step}" if self.step > 1 else ""
+        return f"{self.first}:{'' if self.last is None else self.last}{step}"
+
     @property
     def whole(self) -> bool:
         """Whether every frame of any take is among them."""
-        return self == FrameRange()
+        return self == EVERY_FRAME
 
     def rows(self, count: int) -> slice:
         """Rows of these frames in a take of `count`; RetargetError if it has none or not all of them."""
@@ -55,3 +59,6 @@ class FrameRange:
         if self.first > count or last > count:
             raise RetargetError(f"frames {self.first} to {last} are wanted, but the take has {count}")
         return slice(self.first - 1, last, self.step)
+
+
+EVERY_FRAME = FrameRange()

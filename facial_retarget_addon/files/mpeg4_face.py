@@ -1,0 +1,41 @@
+"""A face that FAPs move, out of its files."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..core.arrays import Progress, no_progress
+from ..core.errors import RetargetError
+from ..core.fap_face import FapFace, fit_fap_face
+from .mesh_file import MeshFile
+from .meshes import read_mesh
+from .points import read_points
+
+
+@dataclass(frozen=True)
+class FapFaceFiles:
+    """Neutral mesh and feature points of a face, and the variant of its weights, see `fit_fap_face`."""
+
+    neutral: Path
+    points: Path
+    variant: str = "default"
+
+    def inputs(self) -> dict[str, Path]:
+        """What is read: how messages name it -> its path."""
+        return {"face": self.neutral, "points": self.points}
+
+
+def fit_face_files(files: FapFaceFiles, progress: Progress = no_progress) -> tuple[MeshFile, FapFace]:
+    """Read a face and fit it.
+
+    Raises
+    ------
+    RetargetError : as `read_mesh`, `read_points` and `fit_fap_face`; names the file.
+    """
+    mesh_file = read_mesh(files.neutral)
+    points = read_points(files.points, mesh_file.mesh)
+    try:
+        return mesh_file, fit_fap_face(mesh_file.mesh, points, files.variant, progress)
+    except RetargetError as error:
+        raise RetargetError(f"{files.points}: {error}") from error
