@@ -1,17 +1,17 @@
-"""Tracked markers as motion of feature points, and as FAPs."""
+"""Tracked markers as FAPs."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from .arrays import BoolArray, FloatArray, IntArray
+from .arrays import BoolArray, FloatArray
 from .errors import RetargetError
-from .head_motion import FEWEST_CHOSEN, HeadMotion, head_motion, rigid_markers
 from .marker_assignment import MarkerMap
+from .marker_lips import with_inner_lips
+from .marker_motion import PointMotion, marker_displacements
 from .markers import MarkerTake
 from .mpeg4.channels import PointChannels
 from .mpeg4.conversions import stream_of_values
@@ -25,8 +25,6 @@ from .rigid import closest_rotations
 
 HEAD_FAPS = slice(47, 50)
 """Columns of pitch, yaw and roll of the head."""
-ACTING_POINTS = frozenset(point for fap in FAPS if fap.kind == "translation" for point in fap.points)
-"""Points that FAPs move: markers on them are no first choice for the motion of the head."""
 UPPER_LIDS = {"3.1": 19, "3.2": 20}
 """Middles of the upper lids, and the FAPs that close them."""
 MIRRORED = 0.01
@@ -35,80 +33,24 @@ LIDS_APART = 0.25
 """Lid markers farther apart than this share of the eyes' distance lie beside the lids' edges; open lids are at 0.16."""
 
 
-@dataclass(frozen=True, eq=False)
-class PointMotion:
-    """What an actor's markers say about feature points, the head's motion taken out.
-
-    Attributes
-    ----------
-    names : (P,) of the points, in the order of the map.
-    neutral : (P, 3) their places on the neutral face, in the take's axes and units.
-    displacements : (F, P, 3) from there, as if the head had kept its neutral place; the same axes and units.
-    head : the motion that was taken out.
-    rigid : the markers that gave it.
-    """
-
-    names: tuple[str, ...]
-    neutral: FloatArray
-    displacements: FloatArray
-    head: HeadMotion
-    rigid: tuple[str, ...]
-
-
-def marker_displacements(
-    take: MarkerTake, marker_map: MarkerMap, head: str = "kabsch", trim: bool = False
-) -> PointMotion:
-    """Motion of the feature points that markers sit on, in the neutral head's place.
-
-    Parameters
-    ----------
-    take : with every mapped marker in every frame, see `marker_gaps.fill_gaps`; rigid markers may have gaps.
-    marker_map : markers that are not in it do not count. The neutral is the mean of its neutral frames, brought to the
-        head's place in the first of them. Without rigid markers in it, `head_motion.rigid_markers` finds them, among
-        those that sit on no point that a FAP moves if there are six, otherwise among all.
-    head, trim : how the head's motion is found, see `head_motion.head_motion`.
-
-    Raises
-    ------
-    RetargetError : if a marker is not in the take or has a gap, if two markers sit on one point, if the take has no
-        such neutral frames, or if the head's motion cannot be found.
-
-    References
-    ----------
-    Kshirsagar et al., section 4.1.
-    """
-    rows = take.index(marker_map.points)
-    _check(take, marker_map, rows)
-    first, last = marker_map.neutral_frames
-    resting = np.asarray(take.positions[first - 1 : last], np.float64)
-    rigid = take.index(marker_map.rigid) if marker_map.rigid else _found_rigid(take, marker_map, resting[0])
-    neutral = head_motion(resting[0, rigid], resting[:, rigid], head, trim).removed(resting).mean(axis=0)
-    motion = head_motion(neutral[rigid], take.positions[:, rigid], head, trim)
-    return PointMotion(
-        tuple(marker_map.points.values()),
-        neutral[rows],
-        motion.removed(take.positions[:, rows]) - neutral[rows],
-        motion,
-        tuple(take.names[row] for row in rigid),
-    )
-
-
 def marker_faps(
     take: MarkerTake, marker_map: MarkerMap, head: str = "kabsch", trim: bool = False
 ) -> tuple[FapStream, dict[str, Any]]:
     """FAPs that move an actor's feature points as the markers moved, measured in the actor's own units.
 
     Each translation FAP is read off its point's motion in the neutral head's axes, FAPs 48 to 50 off the turn of the
-    head. FAPs without a marker are not used. Those that have no meaning below zero are held at zero.
+    head. The lips' inner points follow the outer ones, see `marker_lips`. FAPs without a marker are not used. Those
+    that have no meaning below zero are held at zero.
 
     Parameters
     ----------
-    take, head, trim : see `marker_displacements`.
+    take, head, trim : see `marker_motion.marker_displacements`.
     marker_map : points that are no FDPs count neither for the axes of the head nor for FAPs. Its gains multiply.
 
     Returns
     -------
-    The stream, and a plain table: points (point -> marker), head (rigid markers, whether they were found here, the
+    The stream, and a plain table: points (point -> marker), followed (inner point of the lips ->
+    outer point), head (rigid markers, whether they were found here, the
     residual of the fit in the take's units, the range of the turn in degrees), fapu (lengths in the take's units, and
     the points that gave them), faps (name -> largest value without its sign), clamped (name -> frames, lowest value),
     and warnings (sentences).
@@ -126,14 +68,16 @@ def marker_faps(
     _check_sides(motion)
     axes = head_axes(motion.names, motion.neutral)
     fapu = measure_fapu(motion.names, motion.neutral, axes)
-    channels = PointChannels(motion.names, motion.neutral, axes, fapu)
+    full, followed = with_inner_lips(motion, axes[1])
+    channels = PointChannels(full.names, full.neutral, axes, fapu)
     used = channels.measurable.copy()
-    values = channels.values(motion.displacements) * _gains(marker_map.gains, used)
+    values = channels.values(full.displacements) * _gains(marker_map.gains, used)
     clamped = _clamp(values)
     values[:, HEAD_FAPS] = head_angles(motion.head.rotations, axes)
     used[HEAD_FAPS] = True
     report = {
         "points": {point: marker for marker, point in marker_map.points.items()},
+        "followed": followed,
         "head": _head_report(motion, values, head, found=not marker_map.rigid),
         "fapu": {unit: {"length": fapu.length(unit), "taken": taken} for unit, taken in fapu.taken.items()},
         "faps": {FAPS[column].name: float(np.abs(values[:, column]).max()) for column in np.flatnonzero(used)},
@@ -141,25 +85,6 @@ def marker_faps(
         "warnings": _lid_warnings(motion.names, fapu, values),
     }
     return stream_of_values(take.name, take.fps, values, used), report
-
-
-def _check(take: MarkerTake, marker_map: MarkerMap, rows: IntArray) -> None:
-    points = list(marker_map.points.values())
-    twice = sorted({point for point in points if points.count(point) > 1})
-    if twice:
-        raise RetargetError(f"markers: more than one sits on {', '.join(twice)}, expected one marker to a point")
-    first, last = marker_map.neutral_frames
-    if not 1 <= first <= last <= len(take):
-        raise RetargetError(
-            f"markers of {take.name!r}: the neutral frames are {first} to {last}, expected frames from 1 to {len(take)}"
-        )
-    hidden = np.argwhere(~np.isfinite(take.positions[:, rows]).all(axis=2))
-    if len(hidden):
-        frame, row = hidden[0]
-        raise RetargetError(
-            f"markers of {take.name!r}: {take.names[rows[row]]!r} is not seen in frame {frame + 1}, "
-            "expected a take whose gaps are filled"
-        )
 
 
 def _check_sides(motion: PointMotion) -> None:
@@ -176,12 +101,6 @@ def _check_sides(motion: PointMotion) -> None:
             "markers: left and right seem to be swapped, the face would look backwards; expected left points on the "
             "actor's left"
         )
-
-
-def _found_rigid(take: MarkerTake, marker_map: MarkerMap, neutral: FloatArray) -> IntArray:
-    still = [row for row, marker in enumerate(take.names) if marker_map.points.get(marker) not in ACTING_POINTS]
-    candidates = np.array(still if len(still) >= FEWEST_CHOSEN else range(len(take.names)), np.int64)
-    return candidates[rigid_markers(neutral[candidates], take.positions[:, candidates])]
 
 
 def _gains(gains: Mapping[int, float], measured: BoolArray) -> FloatArray:
