@@ -57,10 +57,8 @@ def read_bvh(path: Path) -> MarkerTake:
     if len(rows) != frames:
         raise RetargetError(f"{path} says {frames} frames, but {len(rows)} follow")
     values = numbers(path, of_width(path, rows, width)).reshape(len(rows), width)
-    if not np.isfinite(values).all():
-        raise RetargetError(
-            f"{path} has a channel that is not finite in frame {np.argwhere(~np.isfinite(values))[0][0] + 1}"
-        )
+    if np.isnan(values).any() or any(np.isnan(joint.offset).any() for joint in joints):
+        raise RetargetError(f"{path} has an offset or a channel that is no number")
     return marker_take(path, fps, [joint.name for joint in joints], _places(joints, values))
 
 

@@ -34,7 +34,7 @@ def read_c3d(path: Path) -> MarkerTake:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             reader = c3d.Reader(BytesIO(content))
-            rate = float(str(reader.point_rate))
+            rate = checked_rate(path, str(reader.point_rate))
             labels = _labels(reader)
             units = _units(reader)
             points = _points(path, reader, len(content))
@@ -44,7 +44,7 @@ def read_c3d(path: Path) -> MarkerTake:
         reason = " ".join(str(error).split()) or type(error).__name__
         raise RetargetError(f"{path} is a malformed C3D file: {reason:.120}") from error
     names = [label or f"marker {number}" for number, label in enumerate(labels, 1)]
-    return marker_take(path, checked_rate(path, rate), names, points, units)
+    return marker_take(path, rate, names, points, units)
 
 
 def _points(path: Path, reader: Any, size: int) -> FloatArray:

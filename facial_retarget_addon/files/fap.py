@@ -13,7 +13,7 @@ from ..core.errors import RetargetError
 from ..core.mpeg4.faps import FAPS
 from ..core.mpeg4.stream import FapStream
 from .motion_text import read_motion_lines
-from .number_rows import Row, numbers, whole_number
+from .number_rows import LARGEST, Row, numbers, whole_number
 from .rates import checked_rate
 from .whole import Aside, written_whole
 
@@ -22,8 +22,6 @@ VISEME_MOST = (14, 14, 63, 1)
 """Largest number in each place of FAP 1; the smallest is 0."""
 EXPRESSION_MOST = (6, 63, 6, 63, 1, 1)
 """The same of FAP 2."""
-LARGEST_VALUE = 1e9
-"""FAPs have no bound in text; beyond this a number is a mistake."""
 _HEADER = re.compile(r"(\S+)\s+(?:(.*\S)\s+)?(\S+)\s+(\S+)")
 _MASK = re.compile(r"[01]{68,69}")
 _SINGLE_VISEME = (0, 0, 63, 0)
@@ -56,9 +54,9 @@ def read_fap(path: Path) -> FapStream:
     values = np.zeros((count, len(FAPS)))
     given = [(line, words[start:]) for (line, words), start in zip(frames, starts.tolist(), strict=True)]
     values[low_level] = numbers(path, given)
-    bad = np.flatnonzero(~(np.abs(values) <= LARGEST_VALUE).all(axis=1))
+    bad = np.flatnonzero(np.isnan(values).any(axis=1))
     if len(bad):
-        raise RetargetError(f"{path}: line {frames[bad[0]][0]} has a value beyond {LARGEST_VALUE:g} or none at all")
+        raise RetargetError(f"{path}: line {frames[bad[0]][0]} has a value that is no number")
     first = np.ones(count, np.int64)
     return FapStream(
         name,
@@ -85,10 +83,10 @@ def add_fap(aside: Aside, stream: FapStream, path: Path) -> None:
     """Write a FAP stream among outputs that appear together; the rest as in `write_fap`."""
     if not len(stream):
         raise RetargetError(f"{path} cannot be written: the FAP stream has no frames")
-    wrong = np.flatnonzero(~(np.abs(stream.values) <= LARGEST_VALUE).all(axis=1))
+    wrong = np.flatnonzero(~(np.abs(stream.values) <= LARGEST).all(axis=1))
     if len(wrong):
         raise RetargetError(
-            f"{path} cannot be written: frame {wrong[0]} has a value that is not finite or beyond {LARGEST_VALUE:g}"
+            f"{path} cannot be written: frame {wrong[0]} has a value that is not finite or beyond {LARGEST:g}"
         )
     fps = checked_rate(path, stream.fps)
     header = [VERSION, *stream.name.splitlines(), f"{fps:.0f}" if fps.is_integer() else repr(fps), str(len(stream))]

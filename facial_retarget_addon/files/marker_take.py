@@ -10,6 +10,7 @@ import numpy as np
 from ..core.arrays import FloatArray
 from ..core.errors import RetargetError
 from ..core.markers import MarkerTake
+from .number_rows import LARGEST
 
 
 def marker_take(path: Path, fps: float, names: Sequence[str], positions: FloatArray, units: str = "") -> MarkerTake:
@@ -22,7 +23,8 @@ def marker_take(path: Path, fps: float, names: Sequence[str], positions: FloatAr
 
     Raises
     ------
-    RetargetError : if there are no frames or no markers, a name is empty or appears twice, or a coordinate is infinite.
+    RetargetError : if there are no frames or no markers, a name is empty or appears twice, or a coordinate is larger
+        than LARGEST.
     """
     if not names or not len(positions):
         raise RetargetError(
@@ -33,8 +35,10 @@ def marker_take(path: Path, fps: float, names: Sequence[str], positions: FloatAr
         if not name or name in seen:
             raise RetargetError(f"{path}: marker {name!r:.60} appears twice or has no name, expected unique names")
         seen.add(name)
-    if np.isinf(positions).any():
-        frame, marker, _ = np.argwhere(np.isinf(positions))[0]
-        raise RetargetError(f"{path}: marker {names[marker]!r:.60} is infinitely far away in frame {frame + 1}")
+    if (np.abs(positions) > LARGEST).any():
+        frame, marker, _ = np.argwhere(np.abs(positions) > LARGEST)[0]
+        raise RetargetError(
+            f"{path}: marker {names[marker]!r:.60} is farther than {LARGEST:g} away in frame {frame + 1}"
+        )
     seen_whole = np.isfinite(positions).all(axis=2, keepdims=True)
     return MarkerTake(path.stem, fps, tuple(names), np.where(seen_whole, positions, np.nan), units)

@@ -172,7 +172,7 @@ def table(**changes: str) -> str:
         (table().replace("0.040000000", "0.020000000"), "time of frame 3 is not after"),
         (table().replace("0.040000000", "nan"), "time of frame 3 is not after"),
         (table().replace("0.040000000", "1e9"), "frames are missing between 3"),
-        (table().replace("0.040000000", "inf"), "time of frame 3 is not after"),
+        (table().replace("0.040000000", "inf"), "line 4 has inf, expected at most"),
         (table().replace("0.02", "0.00001").replace("0.04", "0.00002"), "expected a number from 1 to 10000"),
         (table().replace("0.5", "50."), "expected weights from 0 to 1"),
         (table().replace("0.500000000\n", "nan\n", 1), "line 2 has a value that is missing"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import struct
 from collections.abc import Callable
 from pathlib import Path
 
@@ -196,7 +197,9 @@ def cut(text: str, old: str, new: str) -> str:
         ("OFFSET 0 2 0", "OFFSET 0 two 0", "line 7 has 'two'"),
         ("}\nMOTION", "MOTION", "ends inside joint 'Hips'"),
         ("1 2 3 0 0 0", "1 2 3 0 0", "has 9 values, expected 10"),
-        ("1 2 3 0 0 0", "1 2 inf 0 0 0", "not finite in frame 2"),
+        ("1 2 3 0 0 0", "1 2 inf 0 0 0", "line 28 has inf"),
+        ("1 2 3 0 0 0", "1 2 nan 0 0 0", "has an offset or a channel that is no number"),
+        ("OFFSET 0 2 0", "OFFSET 0 nan 0", "has an offset or a channel that is no number"),
     ],
 )
 def test_malformed_skeletons(tmp_path, old, new, said):
@@ -239,7 +242,7 @@ def test_malformed_tables(tmp_path, name, old, new, said):
 
 def test_a_coordinate_that_is_infinite(tmp_path):
     (tmp_path / "take.csv").write_text("fps,30\nchin_x,chin_y,chin_z\n1,2,3\n4,1e999,6\n")
-    with pytest.raises(RetargetError, match="marker 'chin' is infinitely far away in frame 2"):
+    with pytest.raises(RetargetError, match="line 4 has inf, expected at most"):
         read_markers(tmp_path / "take.csv")
 
 
@@ -253,6 +256,27 @@ def test_c3d_files_that_claim_too_much(tmp_path):
     content[at : at + 4] = b"\xff" * 4
     (tmp_path / "take.c3d").write_bytes(content)
     with pytest.raises(RetargetError, match="says 4294967295 frames of 3 markers, but ends before them"):
+        read_markers(tmp_path / "take.c3d")
+
+
+def with_other_numbers(path: Path, old: float, new: float) -> None:
+    """A C3D file in which a number has another value wherever it stands."""
+    c3d(path)
+    content = path.read_bytes()
+    assert struct.pack("<f", old) in content
+    path.write_bytes(content.replace(struct.pack("<f", old), struct.pack("<f", new)))
+
+
+@pytest.mark.parametrize("fps", [0.0, -50.0, float("nan"), float("inf"), 20000.0])
+def test_c3d_files_of_a_wrong_rate(tmp_path, fps):
+    with_other_numbers(tmp_path / "take.c3d", FPS, fps)
+    with pytest.raises(RetargetError, match=r"frames a second, expected a number from 1 to 10000|inconsistent .* rate"):
+        read_markers(tmp_path / "take.c3d")
+
+
+def test_a_marker_that_is_too_far_away(tmp_path):
+    with_other_numbers(tmp_path / "take.c3d", float(positions()[1, 2, 0]), 1e30)
+    with pytest.raises(RetargetError, match=r"marker 'Nose' is farther than 1e\+15 away in frame 2"):
         read_markers(tmp_path / "take.c3d")
 
 
