@@ -98,7 +98,7 @@ class FapFace:
         frames = np.asarray(frames)
         if frames.ndim != 3 or frames.shape[1:] != self._neutral.shape:
             raise RetargetError(f"frames have shape {frames.shape}, expected (F, {len(self._neutral)}, 3)")
-        there = self._known.positions(frames.astype(np.float64))
+        there = self._known.positions(frames)
         return self._motion.values(there - self._known.positions(self.mesh.vertices))
 
     def channel_values(self, values: FloatArray) -> FloatArray:

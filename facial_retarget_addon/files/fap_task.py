@@ -16,11 +16,11 @@ from .fap import add_fap
 from .fap_page import fap_page
 from .fap_report import fap_table, mute_warnings
 from .frame_range import EVERY_FRAME, FrameRange
-from .frames import SUFFIXES, add_frames, check_frames_place, read_frames
+from .frames import SUFFIXES, add_frames, read_frames
 from .motion_stream import read_stream
 from .mpeg4_face import FapFaceFiles, fit_face_files
 from .report import report_json
-from .whole import Aside, check_place, overwritten, written_whole
+from .whole import Aside, overwritten, place_faults, written_whole
 
 _STREAM = ".fap"
 
@@ -166,7 +166,8 @@ def _converted(task: FapTask, progress: Progress) -> _Result:
     stream, facts = read_stream(task.motion, task.fps, task.gaps, task.marker_map)
     if not task.chosen.whole:
         values = low_level(stream, task.missing)[task.chosen.rows(len(stream))]
-        stream = stream_of_values(stream.name, stream.fps / task.chosen.step, values)
+        used = stream.used.any(axis=0) | values.any(axis=0)
+        stream = stream_of_values(stream.name, stream.fps / task.chosen.step, values, used)
     warnings = facts.pop("warnings")
     report = _report(task, facts, fap_table(low_level(stream, task.missing)), warnings)
     return _Result(report, lambda aside: add_fap(aside, stream, task.out))
@@ -196,18 +197,15 @@ def _check(task: FapTask) -> None:
     outputs = {"out": task.out, "report": task.report, "page": task.page}
     wrong = _contradictions(task)
     wrong += overwritten(inputs, {name: path for name, path in outputs.items() if path is not None})
-    try:
-        (check_frames_place if task.plays else check_place)(task.out)
-        for path in (task.report, task.page):
-            if path is not None:
-                check_place(path)
-    except RetargetError as error:
-        wrong.append(str(error))
+    wrong += place_faults([task.out], ".obj" if task.plays else "") + place_faults([task.report, task.page])
     if wrong:
         raise RetargetError("; ".join(wrong))
 
 
 def _contradictions(task: FapTask) -> list[str]:
+    suffix = task.out.suffix.lower()
+    if suffix not in (_STREAM, *SUFFIXES) and not task.out.is_dir():
+        return [f"{task.out} would be a {suffix}, expected {_STREAM}, or .npz, .pc2, .mdd or a folder for frames"]
     wrong = []
     if task.measures and task.plays:
         wrong.append(

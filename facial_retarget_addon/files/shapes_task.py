@@ -20,7 +20,7 @@ from .mpeg4_face import FapFaceFiles, fit_face_files
 from .npz import write_arrays
 from .obj import write_obj
 from .report import report_json
-from .whole import Aside, check_place, overwritten, written_whole
+from .whole import Aside, overwritten, place_faults, written_whole
 
 _FOLDER_OF = ".obj"
 
@@ -109,12 +109,7 @@ def _check(task: ShapesTask) -> None:
     suffix = task.out.suffix.lower()
     if suffix not in ("", ".npz") and not task.out.is_dir():
         wrong.append(f"shapes {task.out} would be a {suffix}, expected a folder of .obj files or an .npz")
-    try:
-        check_place(task.out, replaces="" if suffix == ".npz" else _FOLDER_OF)
-        for path in (task.report, task.page):
-            if path is not None:
-                check_place(path)
-    except RetargetError as error:
-        wrong.append(str(error))
+    wrong += place_faults([task.out], "" if suffix == ".npz" else _FOLDER_OF)
+    wrong += place_faults([task.report, task.page])
     if wrong:
         raise RetargetError("; ".join(wrong))

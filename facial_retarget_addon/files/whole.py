@@ -6,7 +6,7 @@ import errno
 import os
 import secrets
 import shutil
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -98,6 +98,18 @@ def check_place(path: Path, replaces: str = "") -> None:
             _check_replaceable(path, replaces)
     except OSError as error:
         raise RetargetError(f"{path} cannot be written: {_reason(error)}") from error
+
+
+def place_faults(places: Iterable[Path | None], replaces: str = "") -> list[str]:
+    """What is wrong with some outputs' places, see `check_place`; None is passed over."""
+    wrong = []
+    for place in places:
+        try:
+            if place is not None:
+                check_place(place, replaces)
+        except RetargetError as error:
+            wrong.append(str(error))
+    return wrong
 
 
 def overwritten(inputs: Mapping[str, Path], outputs: Mapping[str, Path]) -> list[str]:
