@@ -79,14 +79,12 @@ def _joints(path: Path, lines: Iterable[tuple[int, str]]) -> list[_Joint]:
                 open_joints.pop()
             case ["OFFSET", _, _, _] if open_joints:
                 joints[open_joints[-1]].offset = numbers(path, [(line, words[1:])])
-            case ["CHANNELS", count, *names] if open_joints and whole_number(count) == len(names):
-                found = [_CHANNEL.fullmatch(name) for name in names]
-                joint = joints[open_joints[-1]]
-                joint.first = columns
-                joint.channels = [("XYZ".index(f[1].upper()), f[2].lower()) for f in found if f]
+            case ["CHANNELS", count, *names] if (
+                open_joints and not joints[open_joints[-1]].channels and whole_number(count) == len(names)
+            ):
+                joints[open_joints[-1]].first = columns
+                joints[open_joints[-1]].channels = [_channel(path, line, name) for name in names]
                 columns += len(names)
-                if None in found:
-                    raise RetargetError(f"{path}: line {line} has a channel that is no position or rotation: {names}")
             case _:
                 raise RetargetError(
                     f"{path}: line {line} has {' '.join(words)!r:.60}, which no BVH hierarchy has there"
@@ -102,6 +100,14 @@ def _statements(lines: Iterable[tuple[int, str]]) -> Iterable[Row]:
         for part in re.sub(r"([{}])", r"\n\1\n", text).split("\n"):
             if part.strip():
                 yield line, part.split()
+
+
+def _channel(path: Path, line: int, name: str) -> tuple[int, str]:
+    """Axis and kind of a channel."""
+    found = _CHANNEL.fullmatch(name)
+    if found is None:
+        raise RetargetError(f"{path}: line {line} has the channel {name!r:.60}, expected a position or rotation")
+    return "XYZ".index(found[1].upper()), found[2].lower()
 
 
 def _motion(path: Path, lines: list[tuple[int, str]]) -> tuple[int, float, list[Row]]:
