@@ -10,7 +10,7 @@ import numpy as np
 from .arrays import BoolArray, FloatArray
 from .errors import RetargetError
 from .marker_assignment import MarkerMap
-from .marker_lips import with_inner_lips
+from .marker_lips import with_inner_lips, without_swing
 from .marker_motion import PointMotion, marker_displacements
 from .markers import MarkerTake
 from .mpeg4.channels import PointChannels
@@ -69,6 +69,7 @@ def marker_faps(
     axes = head_axes(motion.names, motion.neutral)
     fapu = measure_fapu(motion.names, motion.neutral, axes)
     full, followed = with_inner_lips(motion, axes[1])
+    full = without_swing(full, followed, axes[2])
     channels = PointChannels(full.names, full.neutral, axes, fapu)
     used = channels.measurable.copy()
     values = channels.values(full.displacements) * _gains(marker_map.gains, used)

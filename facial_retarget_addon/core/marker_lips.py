@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -20,6 +21,10 @@ OUTER = {
     "2.9": "8.8",
 }
 """Inner point of the lips -> the outer point that it follows."""
+CHIN = "2.1"
+SWING = 0.85
+"""How far the middle of the lower lip goes back as the jaw swings open, per way of the chin: the slope in a real take
+of jaw motion, correlation 0.997."""
 _MEETING = (("2.2", "2.3"), ("2.6", "2.8"), ("2.7", "2.9"))
 """Upper and lower inner points that touch on the neutral face."""
 
@@ -56,3 +61,22 @@ def with_inner_lips(motion: PointMotion, up: FloatArray) -> tuple[PointMotion, d
         displacements=np.concatenate([motion.displacements, added], axis=1),
     )
     return full, followed
+
+
+def without_swing(motion: PointMotion, followed: Mapping[str, str], forward: FloatArray) -> PointMotion:
+    """The motion with the jaw's swing backwards taken from the inner lower lip (2.3), if it follows the outer one.
+
+    FAP 14 cannot say that the chin goes back, but FAP 16 can say it of the lip, which would end behind the teeth of a
+    face whose chin stays in front.
+
+    Parameters
+    ----------
+    motion, followed : from `with_inner_lips`.
+    forward : (3,) unit vector, the head's.
+    """
+    if "2.3" not in followed or CHIN not in motion.names:
+        return motion
+    back = np.minimum(motion.displacements[:, motion.names.index(CHIN)] @ forward, 0)
+    displacements = motion.displacements.copy()
+    displacements[:, motion.names.index("2.3")] -= SWING * back[:, None] * forward
+    return replace(motion, displacements=displacements)

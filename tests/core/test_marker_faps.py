@@ -175,6 +175,17 @@ def test_pressed_lips_do_not_cross() -> None:
     assert with_inner_lips(full, up)[1] == {}
 
 
+def test_the_inner_lip_does_not_swing_back_where_the_chin_cannot(shared_data: Path) -> None:
+    take, marker_map = real_take(shared_data, "jaw")
+    stream, _ = marker_faps(take, marker_map)
+    wide = stream.values[:, column("open_jaw")] > 800
+    assert np.abs(stream.values[wide, column("push_b_lip")]).max() < 200
+    motion = marker_displacements(take, marker_map)
+    forward = head_axes(motion.names, motion.neutral)[2]
+    lip = motion.displacements[:, motion.names.index("8.2")] @ forward
+    assert (lip[wide] < -0.7).all()  # centimetres
+
+
 def test_free_points_do_not_count_and_ride_along() -> None:
     take, values = acted(np.random.default_rng(9))
     named = {marker: "freckle" if point == "5.1" else point for marker, point in WHOLE_MAP.points.items()}
