@@ -16,17 +16,17 @@ from .markers import MarkerTake
 from .mpeg4.channels import PointChannels
 from .mpeg4.conversions import stream_of_values
 from .mpeg4.faps import FAPS
-from .mpeg4.fapu import Fapu, measure_fapu
+from .mpeg4.fapu import ANGLE, Fapu, measure_fapu
 from .mpeg4.head import head_axes
-from .mpeg4.head_turn import ANGLE_UNIT, head_angles
+from .mpeg4.head_turn import head_angles
 from .mpeg4.mean_face import MEAN_FACE
 from .mpeg4.stream import FapStream
 from .rigid import closest_rotations
 
 HEAD_FAPS = slice(47, 50)
 """Columns of pitch, yaw and roll of the head."""
-UPPER_LIDS = {"3.1": 19, "3.2": 20}
-"""Middles of the upper lids, and the FAPs that close them."""
+UPPER_LIDS = (19, 20)
+"""FAPs that close the upper lids."""
 MIRRORED = 0.01
 """An average face's mirror image fits better by this share of its extent where the sides are swapped, not by noise."""
 LIDS_APART = 0.25
@@ -49,11 +49,10 @@ def marker_faps(
 
     Returns
     -------
-    The stream, and a plain table: points (point -> marker), followed (inner point of the lips ->
-    outer point), head (rigid markers, whether they were found here, the
-    residual of the fit in the take's units, the range of the turn in degrees), fapu (lengths in the take's units, and
-    the points that gave them), faps (name -> largest value without its sign), clamped (name -> frames, lowest value),
-    and warnings (sentences).
+    The stream, and a plain table: points (point -> marker), followed (inner point of the lips -> outer point), head
+    (rigid markers, whether they were found here, the residual of the fit in the take's units, the range of the turn in
+    degrees), fapu (lengths in the take's units, and the points that gave them), faps (name -> largest value without its
+    sign), clamped (name -> frames, lowest value), and warnings (sentences).
 
     Raises
     ------
@@ -74,6 +73,7 @@ def marker_faps(
     used = channels.measurable.copy()
     values = channels.values(full.displacements) * _gains(marker_map.gains, used)
     clamped = _clamp(values)
+    lids = [fap for fap in UPPER_LIDS if used[fap - 1] and fap not in marker_map.gains]
     values[:, HEAD_FAPS] = head_angles(motion.head.rotations, axes)
     used[HEAD_FAPS] = True
     report = {
@@ -83,7 +83,7 @@ def marker_faps(
         "fapu": {unit: {"length": fapu.length(unit), "taken": taken} for unit, taken in fapu.taken.items()},
         "faps": {FAPS[column].name: float(np.abs(values[:, column]).max()) for column in np.flatnonzero(used)},
         "clamped": clamped,
-        "warnings": _lid_warnings(motion.names, fapu, values),
+        "warnings": _lid_warnings(fapu, values, lids),
     }
     return stream_of_values(take.name, take.fps, values, used), report
 
@@ -130,7 +130,7 @@ def _clamp(values: FloatArray) -> dict[str, dict[str, float]]:
 
 def _head_report(motion: PointMotion, values: FloatArray, method: str, found: bool) -> dict[str, Any]:
     residual = motion.head.residual
-    degrees = np.degrees(values[:, HEAD_FAPS] * ANGLE_UNIT)
+    degrees = np.degrees(values[:, HEAD_FAPS] * ANGLE)
     return {
         "method": method,
         "rigid": list(motion.rigid),
@@ -145,9 +145,8 @@ def _head_report(motion: PointMotion, values: FloatArray, method: str, found: bo
     }
 
 
-def _lid_warnings(names: tuple[str, ...], fapu: Fapu, values: FloatArray) -> list[str]:
+def _lid_warnings(fapu: Fapu, values: FloatArray, lids: list[int]) -> list[str]:
     """Markers above the edges of the upper lids move less than these."""
-    lids = [number for point, number in UPPER_LIDS.items() if point in names]
     if not lids or fapu.irisd < LIDS_APART * fapu.es:
         return []
     most = ", ".join(f"FAP {number} {values[:, number - 1].max():.0f}" for number in lids)

@@ -237,6 +237,7 @@ def test_a_real_take_lifts_both_cheeks(shared_data: Path) -> None:
         assert pair.max(axis=0).min() > 200
         assert np.corrcoef(pair.T)[0, 1] > 0.8
     assert "sit beside the lids' edges" in report["warnings"][0]
+    assert not marker_faps(take, replace(marker_map, gains={19: 9.0, 20: 9.0}))[1]["warnings"]
 
 
 def test_swapped_sides_are_noticed(shared_data: Path) -> None:

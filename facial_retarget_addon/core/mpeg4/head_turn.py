@@ -5,9 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import FloatArray
-
-ANGLE_UNIT = 1e-5
-"""Radians of one unit of FAPs 48 to 50."""
+from .fapu import ANGLE
 
 
 def head_angles(rotations: FloatArray, axes: FloatArray) -> FloatArray:
@@ -31,7 +29,7 @@ def head_angles(rotations: FloatArray, axes: FloatArray) -> FloatArray:
     pitch = np.arcsin(np.clip(-turn[:, 1, 2], -1, 1))
     yaw = np.arctan2(turn[:, 0, 2], turn[:, 2, 2])
     roll = np.arctan2(turn[:, 1, 0], turn[:, 1, 1])
-    return np.stack([pitch, yaw, roll], axis=1) / ANGLE_UNIT
+    return np.stack([pitch, yaw, roll], axis=1) / ANGLE
 
 
 def rotation_of_angles(values: FloatArray, axes: FloatArray) -> FloatArray:
@@ -46,7 +44,7 @@ def rotation_of_angles(values: FloatArray, axes: FloatArray) -> FloatArray:
     -------
     (F, 3, 3) rotations from the neutral head, in the object's axes.
     """
-    (sp, sy, sr), (cp, cy, cr) = (part(np.asarray(values).T * ANGLE_UNIT) for part in (np.sin, np.cos))
+    (sp, sy, sr), (cp, cy, cr) = (part(np.asarray(values).T * ANGLE) for part in (np.sin, np.cos))
     turn = np.array(
         [
             [cy * cr + sy * sp * sr, -cy * sr + sy * sp * cr, sy * cp],
