@@ -16,6 +16,10 @@ from .marker_take import marker_take
 from .motion_text import read_motion_bytes
 from .rates import checked_rate
 
+BLOCK = 512
+"""Bytes; every part of a C3D file fills whole blocks."""
+MOST_COUNTED = 65535
+"""Frames that a file can count without the parameters of longer takes."""
 _MAGIC = 80
 """The second byte of every C3D file."""
 
@@ -49,16 +53,26 @@ def read_c3d(path: Path) -> MarkerTake:
 
 def _points(path: Path, reader: Any, size: int) -> FloatArray:
     """(F, M, 3) positions, NaN where a marker was not seen, out of a file of `size` bytes."""
-    markers, frames = int(reader.point_used), int(reader.frame_count)
+    markers, frames = int(reader.point_used), _frame_count(reader)
     length = frames * (4 * markers + reader.header.analog_count) * (4 if reader.point_scale < 0 else 2)
-    start = 512 * (reader.header.data_block - 1)
+    start = BLOCK * (reader.header.data_block - 1)
     if not 0 <= length <= size - start:
         raise RetargetError(f"{path} says {frames} frames of {markers} markers, but ends before them")
+    if frames == MOST_COUNTED and size - start - length >= BLOCK:
+        raise RetargetError(
+            f"{path} has more frames than the {MOST_COUNTED} that its header can say, expected shorter takes"
+        )
     points = np.full((frames if markers else 0, markers, 3), np.nan)
     for positions, (_, given, _) in zip(points, reader.read_frames(copy=False), strict=False):
         seen = given[:, 3] >= 0
         positions[seen] = given[seen, :3]
     return points
+
+
+def _frame_count(reader: Any) -> int:
+    first = reader.get("TRIAL:ACTUAL_START_FIELD")
+    high = 0 if first is None else int(first.uint16_array[1])
+    return int(reader.frame_count) - high  # c3d 0.6.0 takes the high word of the first frame times 65535
 
 
 def _labels(reader: Any) -> list[str]:

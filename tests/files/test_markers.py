@@ -260,6 +260,28 @@ def test_c3d_files_that_claim_too_much(tmp_path):
         read_markers(tmp_path / "take.c3d")
 
 
+def numbered(path: Path, first: int, last: int, more: int = 0) -> None:
+    """A C3D file whose frames have other numbers, and room for more of them."""
+    c3d(path)
+    content = bytearray(path.read_bytes())
+    content[6:10] = struct.pack("<HH", min(first, 65535), min(last, 65535))
+    for name, number in ((b"ACTUAL_START_FIELD", first), (b"ACTUAL_END_FIELD", last)):
+        at = content.index(name) + len(name) + 5
+        content[at : at + 4] = struct.pack("<I", number)
+    path.write_bytes(bytes(content) + bytes(more * len(NAMES) * 16))
+
+
+def test_c3d_files_of_long_takes(tmp_path):
+    for first in (1, 60000, 70000, 200000):
+        numbered(tmp_path / "take.c3d", first, first + FRAMES - 1)
+        assert_is_the_take(read_markers(tmp_path / "take.c3d"))
+    numbered(tmp_path / "take.c3d", 1, 65535, 65600)
+    with pytest.raises(RetargetError, match="has more frames than the 65535 that its header can say"):
+        read_markers(tmp_path / "take.c3d")
+    numbered(tmp_path / "take.c3d", 1, 65600, 65600)
+    assert len(read_markers(tmp_path / "take.c3d")) == 65600
+
+
 def with_other_numbers(path: Path, old: float, new: float) -> None:
     """A C3D file in which a number has another value wherever it stands."""
     c3d(path)
