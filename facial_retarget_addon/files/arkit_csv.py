@@ -36,7 +36,7 @@ def read_arkit_csv(path: Path, fps: float | None = None, gaps: Gaps = "fill") ->
 
     Times come from the timecodes, or else a column of seconds, or else `fps`. Where they tell that frames were left
     out, or a row has no weights because the face was out of sight, the missing frames lie on a straight line between
-    their neighbours, with an empty timecode, so that the take stays in step with its sound and video.
+    their neighbours, so that the take stays in step with its sound and video; the take names them.
 
     Parameters
     ----------
@@ -58,43 +58,35 @@ def has_arkit_names(table: CsvTable) -> bool:
 
 def arkit_take(table: CsvTable, fps: float | None = None, gaps: Gaps = "fill") -> ArkitTake:
     """The take that a table holds; see `read_arkit_csv`."""
-    if not has_arkit_names(table):
-        raise RetargetError(f"{table.path} is no ARKit CSV: none of its columns is named like one of the 52 weights")
-    columns = table.columns
-    extra = tuple(part for part in (HEAD, EYES) if any(letters(name) in columns for name in part))
-    wanted = [name for part in (WEIGHTS, *extra) for name in part]
-    missing = [name for name in wanted if letters(name) not in columns]
-    if missing:
-        named = ", ".join(missing[:MOST_FAULTS])
-        more = f" and {len(missing) - MOST_FAULTS} more" if len(missing) > MOST_FAULTS else ""
-        raise RetargetError(f"{table.path} has no column {named}{more}")
-    places = [columns[letters(name)] for name in wanted]
-    weighted = places[: len(WEIGHTS)]
+    places = _places(table)
+    weighted = [places[name] for name in WEIGHTS]
     rows = [(line, cells) for line, cells in table.rows() if any(cells[place].strip() for place in weighted)]
     if not rows:
         raise RetargetError(f"{table.path} has no frames")
-    values = numbers(table.path, ((line, [cells[place] for place in places]) for line, cells in rows))
+    values = numbers(table.path, ((line, [cells[place] for place in places.values()]) for line, cells in rows))
     values = values.reshape(len(rows), len(places))
     _check_values(table.path, [line for line, _ in rows], values)
     rate, frames, timecodes = _timing(table, rows, fps)
-    if gaps == "fill":
-        values, timecodes = _filled(frames, values, timecodes)
-    rotations = dict(zip(wanted[len(WEIGHTS) :], values[:, len(WEIGHTS) :].T, strict=True))
+    missing = np.setdiff1d(np.arange(frames[-1] + 1), frames) if gaps == "fill" else np.empty(0, np.int64)
+    if len(missing):
+        values = _filled(frames, missing, values)
+        timecodes = timecodes and _filled_timecodes(table.path, frames, missing, timecodes)
+    columns = dict(zip(places, values.T, strict=True))
     return ArkitTake(
         name=table.path.stem,
         fps=rate,
         weights=values[:, : len(WEIGHTS)],
-        head=np.stack([rotations[name] for name in HEAD], axis=1) if HEAD in extra else None,
-        eyes=np.stack([rotations[name] for name in EYES], axis=1) if EYES in extra else None,
+        head=np.stack([columns[name] for name in HEAD], axis=1) if HEAD[0] in columns else None,
+        eyes=np.stack([columns[name] for name in EYES], axis=1) if EYES[0] in columns else None,
         timecodes=timecodes,
+        filled=tuple(missing.tolist()),
     )
 
 
 def write_arkit_csv(take: ArkitTake, path: Path) -> None:
     """Write a take as Live Link Face does, whole or not at all: 61 columns, ten decimals.
 
-    Rotations that the take does not have are 0. Frames without a timecode get one from their neighbours', and a take
-    without any starts at 0.
+    Rotations that the take does not have are 0. A take without timecodes starts at 0.
 
     Raises
     ------
@@ -108,9 +100,24 @@ def write_arkit_csv(take: ArkitTake, path: Path) -> None:
         raise RetargetError(f"{path} cannot be written: the take has no frames, or a number that is not finite")
     columns = (*WEIGHTS, *HEAD, *EYES)
     pattern = f"%s,{len(columns)}" + ",%.10f" * len(columns)
-    rows = zip(_complete_timecodes(path, take), values.tolist(), strict=True)
+    fps = checked_rate(path, take.fps)
+    timecodes = take.timecodes or [Clock().text(frame / fps) for frame in range(count)]
+    rows = zip(timecodes, values.tolist(), strict=True)
     text = [",".join(("Timecode", "BlendShapeCount", *columns)), *(pattern % (code, *row) for code, row in rows), ""]
     write_whole(path, "\n".join(text).encode())
+
+
+def _places(table: CsvTable) -> dict[str, int]:
+    """Column of each weight, then of the rotations that the table has; of the head's and the eyes' all or none."""
+    if not has_arkit_names(table):
+        raise RetargetError(f"{table.path} is no ARKit CSV: none of its columns is named like one of the 52 weights")
+    rotations = [part for part in (HEAD, EYES) if any(letters(name) in table.columns for name in part)]
+    wanted = [name for part in (WEIGHTS, *rotations) for name in part]
+    absent = [name for name in wanted if letters(name) not in table.columns]
+    if absent:
+        more = f" and {len(absent) - MOST_FAULTS} more" if len(absent) > MOST_FAULTS else ""
+        raise RetargetError(f"{table.path} has no column {', '.join(absent[:MOST_FAULTS])}{more}")
+    return {name: table.columns[letters(name)] for name in wanted}
 
 
 def _check_values(path: Path, lines: Sequence[int], values: FloatArray) -> None:
@@ -135,23 +142,21 @@ def _timing(table: CsvTable, rows: list[CsvRow], fps: float | None) -> tuple[flo
     return (*frames_of_times(table.path, seconds), timecodes)
 
 
-def _filled(frames: IntArray, values: FloatArray, timecodes: tuple[str, ...]) -> tuple[FloatArray, tuple[str, ...]]:
-    """Every frame from the first to the last, those that are missing on straight lines and without a timecode."""
-    every = np.arange(frames[-1] + 1)
-    after = np.searchsorted(frames, every).clip(1, None) if len(frames) > 1 else np.zeros(1, np.int64)
-    before = np.maximum(after - 1, 0)
-    share = (every - frames[before]) / np.maximum(frames[after] - frames[before], 1)
-    filled = values[before] + share[:, None] * (values[after] - values[before])
+def _filled(frames: IntArray, missing: IntArray, values: FloatArray) -> FloatArray:
+    """Values of every frame from the first to the last, those that are missing on straight lines."""
+    after = np.searchsorted(frames, missing)
+    before = after - 1
+    share = (missing - frames[before]) / (frames[after] - frames[before])
+    filled = np.empty((len(frames) + len(missing), values.shape[1]))
     filled[frames] = values
-    known = dict(zip(frames.tolist(), timecodes, strict=bool(timecodes)))
-    return filled, tuple(known.get(frame, "") for frame in every.tolist()) if timecodes else ()
+    filled[missing] = values[before] + share[:, None] * (values[after] - values[before])
+    return filled
 
 
-def _complete_timecodes(path: Path, take: ArkitTake) -> list[str]:
-    """A timecode for each frame: the take's own, and between them what the clock shows."""
-    known = [frame for frame, timecode in enumerate(take.timecodes) if timecode]
-    if not known:
-        return [Clock().text(frame / checked_rate(path, take.fps)) for frame in range(len(take))]
-    seconds, clock = timecode_seconds(path, [take.timecodes[frame] for frame in known])
-    between = np.interp(np.arange(len(take)), known, seconds)
-    return [timecode or clock.text(second) for timecode, second in zip(take.timecodes, between.tolist(), strict=True)]
+def _filled_timecodes(path: Path, frames: IntArray, missing: IntArray, timecodes: tuple[str, ...]) -> tuple[str, ...]:
+    """The timecodes with what the clock shows in the frames that are missing."""
+    seconds, clock = timecode_seconds(path, timecodes)
+    every = dict(zip(frames.tolist(), timecodes, strict=True))
+    shown = map(clock.text, np.interp(missing, frames, seconds).tolist())
+    every.update(zip(missing.tolist(), shown, strict=True))
+    return tuple(every[frame] for frame in range(len(every)))

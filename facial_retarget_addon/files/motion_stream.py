@@ -67,7 +67,9 @@ def stream_of_motion(
         case FapStream():
             return motion, {"format": "FAPs", **facts, "warnings": []}
         case ArkitTake():
-            return faps_of_arkit(motion), {"format": "ARKit weights", **facts, "warnings": []}
+            left_out = f"{len(motion.filled)} frames that the recording left out are filled along straight lines"
+            warnings = [left_out] if motion.filled else []
+            return faps_of_arkit(motion), {"format": "ARKit weights", **facts, "warnings": warnings}
         case _:
             stream, found = _marker_stream(path, motion, gaps, marker_map)
             return stream, {"format": "markers", **facts, "units": motion.units, **found}

@@ -10,6 +10,7 @@ import pytest
 from facial_retarget_addon.core.errors import RetargetError
 from facial_retarget_addon.core.mpeg4.arkit_take import ArkitTake
 from facial_retarget_addon.files.arkit_csv import WEIGHTS, read_arkit_csv, write_arkit_csv
+from facial_retarget_addon.files.motion_stream import read_stream
 from facial_retarget_addon.files.timecode import Clock, timecode_seconds
 
 RECORDINGS = {"alex_rom_3.csv": "livelink_alex_rom_3.npz", "jmtech.csv": "livelink_jmiller.npz"}
@@ -43,7 +44,7 @@ def test_the_columns_are_those_of_real_recordings(shared_data, tmp_path, name):
 def test_real_recordings(shared_data, tmp_path, name):
     known = np.load(shared_data / RECORDINGS[name])
     read = read_arkit_csv(shared_data / name)
-    there = np.array([frame for frame, timecode in enumerate(read.timecodes) if timecode])
+    there = np.delete(np.arange(len(read)), read.filled)
     assert [read.timecodes[frame] for frame in there] == known["timecode"].tolist()
     np.testing.assert_allclose(read.weights[there], known["weights"], atol=1e-7)
     np.testing.assert_allclose(np.concatenate([read.head, read.eyes], axis=1)[there], known["rot"], atol=1e-7)
@@ -53,15 +54,18 @@ def test_real_recordings(shared_data, tmp_path, name):
     write_arkit_csv(read, tmp_path / name)
     again = read_arkit_csv(tmp_path / name)
     assert_equal(again, read)
-    assert all(b == a or not a for a, b in zip(read.timecodes, again.timecodes, strict=True))
+    assert (again.timecodes, again.filled) == (read.timecodes, ())
 
 
 def test_frames_that_a_recording_left_out(shared_data):
     filled = read_arkit_csv(shared_data / "alex_rom_3.csv")
     kept = read_arkit_csv(shared_data / "alex_rom_3.csv", gaps="keep")
-    assert (len(filled), len(kept), filled.timecodes.count(""), kept.timecodes.count("")) == (4033, 4030, 3, 0)
-    first = filled.timecodes.index("")
+    assert (len(filled), len(filled.filled), len(kept), len(kept.filled)) == (4033, 3, 4030, 0)
+    first = filled.filled[0]
     np.testing.assert_allclose(filled.weights[first], filled.weights[[first - 1, first + 1]].mean(axis=0), atol=1e-12)
+    assert filled.timecodes[first - 1 : first + 2] == ("13:13:24:21.492", "13:13:24:23.492", "13:13:24:25.491")
+    _, report = read_stream(shared_data / "alex_rom_3.csv")
+    assert report["warnings"] == ["3 frames that the recording left out are filled along straight lines"]
 
 
 @pytest.mark.parametrize("fps", [24, 25, 30000 / 1001, 30, 60000 / 1001, 60, 120])
@@ -113,6 +117,7 @@ def test_frame_numbers_tell_what_is_missing(tmp_path):
     weights = take(4).weights
     (tmp_path / PATH).write_text(plain(["Frame", *WEIGHTS], np.column_stack([[10, 11, 13, 14], weights])))
     read = read_arkit_csv(tmp_path / PATH, fps=30)
+    assert read.filled == (2,)
     np.testing.assert_allclose(read.weights, np.insert(weights, 2, weights[1:3].mean(axis=0), axis=0), atol=1e-9)
 
 
@@ -122,7 +127,7 @@ def test_a_face_out_of_sight(tmp_path):
     lines[4] = lines[4].split(",")[0] + ",0" + "," * 61
     (tmp_path / PATH).write_text("\n".join(lines))
     read = read_arkit_csv(tmp_path / PATH)
-    assert [frame for frame, timecode in enumerate(read.timecodes) if not timecode] == [3]
+    assert read.filled == (3,)
     np.testing.assert_allclose(read.weights[3], take().weights[[2, 4]].mean(axis=0), atol=1e-9)
 
 

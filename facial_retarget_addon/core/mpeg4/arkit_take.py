@@ -19,6 +19,7 @@ class ArkitTake:
     head : (F, 3) yaw, pitch, roll of the head in radians as recorded, or None.
     eyes : (F, 6) yaw, pitch, roll of the left eye, then of the right eye, in radians as recorded, or None.
     timecodes : (F,) as in the file, or empty.
+    filled : the frames that the recording left out and that lie on straight lines between their neighbours.
     """
 
     name: str
@@ -27,6 +28,7 @@ class ArkitTake:
     head: FloatArray | None
     eyes: FloatArray | None
     timecodes: tuple[str, ...] = ()
+    filled: tuple[int, ...] = ()
 
     def __len__(self) -> int:
         return len(self.weights)
