@@ -43,6 +43,7 @@ class FACIAL_RETARGET_PG_face(PropertyGroup):
 
     points: CollectionProperty(type=FACIAL_RETARGET_PG_feature_point)
     active_point: IntProperty(name="Active feature point")
+    head: PointerProperty(name="Head", type=Object, description="The empty that shows how the head turns")
 
 
 class FACIAL_RETARGET_PG_example(PropertyGroup):

@@ -2,7 +2,19 @@
 
 import bpy
 
-from . import add_point, create_examples, jobs, list_examples, points_files, remove_point, retarget, show_base
+from . import (
+    add_point,
+    create_examples,
+    fap_controls,
+    jobs,
+    list_examples,
+    make_shapes,
+    motion,
+    points_files,
+    remove_point,
+    retarget,
+    show_base,
+)
 
 CLASSES = (
     points_files.FACIAL_RETARGET_OT_load_points,
@@ -16,6 +28,11 @@ CLASSES = (
     retarget.FACIAL_RETARGET_OT_retarget,
     jobs.FACIAL_RETARGET_OT_load_job,
     jobs.FACIAL_RETARGET_OT_save_job,
+    make_shapes.FACIAL_RETARGET_OT_make_shapes,
+    fap_controls.FACIAL_RETARGET_OT_make_controls,
+    fap_controls.FACIAL_RETARGET_OT_remove_controls,
+    motion.FACIAL_RETARGET_OT_import_motion,
+    motion.FACIAL_RETARGET_OT_export_motion,
 )
 
 register, unregister = bpy.utils.register_classes_factory(CLASSES)

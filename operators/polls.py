@@ -25,6 +25,20 @@ class OnFace:
         return in_mode(cls, context, cls.modes)
 
 
+class OnPoints(OnFace):
+    """For operators on the active mesh object and its feature points."""
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        """As `OnFace`; the object must have points."""
+        if not super().poll(context):
+            return False
+        if not len(context.active_object.facial_retarget.points):
+            cls.poll_message_set("Give the face feature points with MPEG-4 names first")
+            return False
+        return True
+
+
 class OnTask:
     """For operators on source and target."""
 

@@ -2,7 +2,7 @@
 
 import bpy
 
-from . import examples, faces, feature_points, job, method
+from . import examples, faces, faps, feature_points, job, method, motion
 
 CLASSES = (
     faces.FACIAL_RETARGET_PT_faces,
@@ -11,6 +11,8 @@ CLASSES = (
     method.FACIAL_RETARGET_PT_retarget,
     method.FACIAL_RETARGET_PT_settings,
     job.FACIAL_RETARGET_PT_job,
+    motion.FACIAL_RETARGET_PT_motion,
+    faps.FACIAL_RETARGET_PT_faps,
 )
 
 register, unregister = bpy.utils.register_classes_factory(CLASSES)

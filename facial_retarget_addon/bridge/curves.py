@@ -44,9 +44,13 @@ def remove_curves(bag: ActionChannelbag, paths: Collection[str]) -> None:
         bag.fcurves.remove(curve)
 
 
-def write_curve(bag: ActionChannelbag, path: str, frames: FloatArray, values: FloatArray, index: int = 0) -> FCurve:
-    """A new curve through (F,) values at (F,) scene frames, on straight lines."""
+def write_curve(
+    bag: ActionChannelbag, path: str, frames: FloatArray, values: FloatArray, index: int = 0, group: str = ""
+) -> FCurve:
+    """A new curve through (F,) values at (F,) scene frames, on straight lines, shown in a group."""
     curve = bag.fcurves.new(path, index=index)
+    if group:
+        curve.group = bag.groups.get(group) or bag.groups.new(group)
     curve.keyframe_points.add(len(frames))
     curve.keyframe_points.foreach_set("co", np.column_stack([frames, values]).astype(np.float32).ravel())
     curve.keyframe_points.foreach_set("interpolation", np.full(len(frames), LINEAR, np.int32))

@@ -24,6 +24,11 @@ def frame_kept(scene: Scene) -> Iterator[None]:
         scene.frame_set(frame, subframe=subframe)
 
 
+def scene_rate(scene: Scene) -> float:
+    """Frames a second of a scene."""
+    return scene.render.fps / scene.render.fps_base
+
+
 def read_frame(context: Context, thing: Object, frame: int) -> FloatArray:
     """(V, 3) float32 positions of an object at one frame, in face space; the scene is left at that frame.
 

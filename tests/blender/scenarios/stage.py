@@ -55,6 +55,21 @@ def grid(name: str, side: int = 6) -> bpy.types.Object:
     return part("bridge.meshes").new_object(name, vertices, np.full(len(corners), 4), corners.ravel())
 
 
+def actor_face(vertices: int = 1_500) -> bpy.types.Object:
+    """The built-in actor with its feature points, as the active object."""
+    actor = part("demo").actor(vertices)
+    file = part("files.mesh_file").MeshFile(actor.face.mesh, actor.counts, actor.corners)
+    made = part("bridge.meshes").new_face("actor", file)
+    part("bridge.points").write_points(made, actor.face.points)
+    bpy.context.view_layer.objects.active = made
+    return made
+
+
+def fitted(thing: bpy.types.Object) -> object:
+    """An object as core's FapFace."""
+    return part("bridge.background").finished(part("bridge.fap_faces").fit_steps(thing))
+
+
 def wave(thing: bpy.types.Object, count: int) -> np.ndarray:
     """(count, V, 3) float32 frames that move every vertex of an object, the first one too."""
     basis = part("bridge.meshes").read_positions(thing.data)
@@ -99,6 +114,9 @@ def snapshot() -> dict[str, object]:
         "meshes": sorted(mesh.name for mesh in bpy.data.meshes),
         "actions": sorted(action.name for action in bpy.data.actions),
         "keys": {key.name: [(block.name, block.value) for block in key.key_blocks] for key in bpy.data.shape_keys},
+        "controls": {
+            thing.name: sorted(n for n, _ in thing.items() if n.startswith("fap_")) for thing in bpy.data.objects
+        },
         "points": {thing.name: len(thing.facial_retarget.points) for thing in bpy.data.objects},
         "examples": [example.name for example in scene.facial_retarget.examples],
     }

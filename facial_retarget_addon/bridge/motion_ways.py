@@ -1,0 +1,144 @@
+"""The ways in which motion gets onto a face.
+
+Each computes what it needs, touching no Blender data but to read it, and gives back what writes all of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from bpy.types import Object
+
+from ..core.arrays import FloatArray, Progress
+from ..core.errors import RetargetError
+from ..core.expression_sets import expression_shapes
+from ..core.fap_face import FapFace
+from ..core.mpeg4.arkit import ARKIT_NAMES
+from ..fap_controls import CONTROLS, REACH
+from ..files.motion import Motion
+from .arkit_keys import find_arkit_keys
+from .background import Steps, in_thread
+from .bake import write_frames
+from .controls import Shapes, has_controls, shape_steps, write_controls
+from .curves import ensure_curves, remove_curves, write_curve
+from .fap_faces import write_shapes
+from .motion_curves import CHANNELS, MOTION, check_free, drive_keys
+from .shape_keys import ensure_key
+
+BLOCK = 64
+"""Frames that are computed between two looks at Esc."""
+WHOLE = 1e-6
+"""Scene frames by which the end of a motion may miss a whole one."""
+
+Write = Callable[[], None]
+
+
+@dataclass(frozen=True)
+class Take:
+    """What a file holds, and when.
+
+    motion : as the file has it.
+    values : (F, 68) as FAPs.
+    fps : frames a second.
+    frames : (F,) the scene frame of each.
+    warnings : of the reading.
+    """
+
+    motion: Motion
+    values: FloatArray
+    fps: float
+    frames: FloatArray
+    warnings: list[str]
+
+
+def controls_steps(thing: Object, face: FapFace | None, take: Take) -> Steps[Write]:
+    """Curves of the FAP controls, which are made if the face has none."""
+    numbers = [control.fap.number for control in CONTROLS]
+    reached = np.abs(take.values[:, [number - 1 for number in numbers]]).max(axis=0)
+    limits = np.array([REACH * control.full for control in CONTROLS])
+    if (reached > limits).any():
+        worst = int((reached / limits).argmax())
+        raise RetargetError(
+            f"FAP {numbers[worst]} reaches {reached[worst]:.0f}, but controls end at {limits[worst]}: "
+            "import the motion as points or frames"
+        )
+    shapes: Shapes | None = None
+    if not has_controls(thing):
+        shapes = yield from shape_steps(face)
+
+    def write() -> None:
+        if shapes is not None:
+            write_controls(thing, shapes)
+        bag = ensure_curves(thing, f"{thing.name} motion")
+        remove_curves(bag, {control.path for control in CONTROLS})
+        for control, most in zip(CONTROLS, reached, strict=True):
+            if most > 0:
+                write_curve(bag, control.path, take.frames, take.values[:, control.fap.number - 1], group=MOTION)
+            elif control.name in thing:
+                thing[control.name] = 0.0
+
+    return write
+
+
+def arkit_steps(thing: Object, face: FapFace | None, take: Take) -> Steps[Write]:
+    """Curves of the 52 named shape keys; those that are missing are made from the points."""
+    named = find_arkit_keys(thing)
+    missing = [name for name in ARKIT_NAMES if name not in named]
+    if missing and face is None:
+        raise RetargetError(
+            f"object {thing.name!r} has no shape key {', '.join(missing)}, and no feature points to make them from"
+        )
+    check_free(thing, named.values())
+    made: dict[str, FloatArray] = {}
+    if missing:
+        made = yield from in_thread(lambda progress: expression_shapes(face, ("arkit",)))
+    weights = dict(zip(ARKIT_NAMES, take.motion.weights.T, strict=True))
+
+    def write() -> None:
+        write_shapes(thing, {name: made[name] for name in missing if name in made})
+        for name in missing:
+            ensure_key(thing, name)
+        drive_keys(thing, {named.get(name, name): values for name, values in weights.items()}, take.frames, MOTION)
+
+    return write
+
+
+def points_steps(thing: Object, face: FapFace, take: Take) -> Steps[Write]:
+    """A shape key and a curve for each channel of the face that the motion uses; at 1 it is where it goes farthest."""
+
+    def compute(progress: Progress) -> tuple[dict[str, FloatArray], dict[str, FloatArray]]:
+        values = face.channel_values(take.values)
+        used = np.flatnonzero(values.any(axis=0))
+        farthest = np.abs(values[:, used]).max(axis=0)
+        neutral = face.mesh.vertices.astype(np.float32)
+        shapes = neutral + farthest[:, None, None].astype(np.float32) * (face.channel_shapes()[used] - neutral)
+        names = [face.channels[column] for column in used]
+        curves = (values[:, used] / farthest).T
+        return dict(zip(names, shapes, strict=True)), dict(zip(names, curves, strict=True))
+
+    shapes, values = yield from in_thread(compute)
+    check_free(thing, shapes)
+
+    def write() -> None:
+        write_shapes(thing, shapes)
+        drive_keys(thing, values, take.frames, CHANNELS)
+
+    return write
+
+
+def frames_steps(thing: Object, face: FapFace, take: Take) -> Steps[Write]:
+    """A shape key for each scene frame of the motion."""
+    first, last = int(take.frames[0]), int(np.floor(take.frames[-1] + WHOLE))
+    whole = np.arange(first, last + 1)
+    values = np.stack([np.interp(whole, take.frames, column) for column in take.values.T], axis=1)
+    frames = np.empty((len(whole), *face.mesh.vertices.shape), np.float32)
+
+    def compute(progress: Progress) -> None:
+        for start in range(0, len(whole), BLOCK):
+            frames[start : start + BLOCK] = face.frames(values[start : start + BLOCK])
+            progress(start / len(whole), f"Frame {start + 1} of {len(whole)}")
+
+    yield from in_thread(compute)
+    return lambda: write_frames(thing, frames, first)

@@ -1,0 +1,28 @@
+"""The active face as an MPEG-4 face: shapes out of its points, and motion files."""
+
+from bpy.types import Context, Panel
+
+from .tab import RetargetTab
+
+
+class FACIAL_RETARGET_PT_motion(RetargetTab, Panel):
+    """Shapes, and motion in and out."""
+
+    bl_label = "MPEG-4 Face"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: Context) -> None:
+        """Draw the panel."""
+        layout = self.layout
+        layout.label(text="Make Shapes")
+        sets = layout.row(align=True)
+        for name, text in (
+            ("expressions", "Expressions"),
+            ("visemes", "Visemes"),
+            ("arkit", "ARKit"),
+            ("faps", "FAPs"),
+        ):
+            sets.operator("facial_retarget.make_shapes", text=text).sets = {name}
+        row = layout.row(align=True)
+        row.operator("facial_retarget.import_motion", icon="IMPORT")
+        row.operator("facial_retarget.export_motion", icon="EXPORT")
