@@ -22,8 +22,12 @@ OUTSIDE = 0.0
 """A lid's skin looks away from the eyeball by more than this cosine; its margin looks sideways, its inside back."""
 INSIDE_COST = 20.0
 """How much longer a way counts where the surface looks at the eyeball."""
-CLEAR = 1.01
-"""Skin that a lid drags over an eyeball stays outside by this factor, where it was outside before."""
+CLEAR = 1.02
+"""A closed lid's margin is at least this many times as far from the centre as the eyeball's surface."""
+AROUND = 0.15
+"""Radians around a direction in which the eyeball's farthest place counts."""
+NEAREST = 6
+"""Places of the eyeball that are looked at in a direction."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,6 +41,7 @@ class Lid:
     vertices : (G,) the guides, vertices along the margin from one corner to the other, without the middle.
     gaps : (G, 3) from each guide to the other lid's margin, in the object's axes and units.
     gap : (3,) the same for the middle.
+    rises : (G,) by how much farther from the eyeball's centre the other margin lies; rise the same for the middle.
     """
 
     side: str
@@ -44,6 +49,8 @@ class Lid:
     vertices: IntArray
     gaps: FloatArray
     gap: FloatArray
+    rises: FloatArray
+    rise: float
 
     def guidance(self) -> FloatArray:
         """(G, 3, 3) what a displacement of the middle does to each guide.
@@ -73,7 +80,7 @@ def find_lids(mesh: TriMesh, points: FeaturePoints, eyeballs: Mapping[str, Eyeba
         corners = points.subset([inner, outer]).positions(mesh.vertices)
         margins = {name: _margin(mesh, graph, points.subset([inner, name, outer]), corners) for name in (upper, lower)}
         for name, other in ((upper, lower), (lower, upper)):
-            lids.append(_lid(mesh, side, name, margins[name], margins[other], points, corners))
+            lids.append(_lid(mesh, ball, name, margins[name], margins[other], points, corners))
     return [lid for lid in lids if np.linalg.norm(lid.gap) > 0]
 
 
@@ -130,44 +137,60 @@ def _way(graph: sp.csr_matrix, start: int, stop: int) -> IntArray:
 
 
 def _lid(
-    mesh: TriMesh, side: str, name: str, own: _Margin, other: _Margin, points: FeaturePoints, corners: FloatArray
+    mesh: TriMesh, ball: Eyeball, name: str, own: _Margin, other: _Margin, points: FeaturePoints, corners: FloatArray
 ) -> Lid:
     wanted = np.concatenate([own.middle * np.array(PLACES), 1 - (1 - own.middle) * np.array(PLACES)[::-1]])
     taken = {int(v) for v in points.vertices[points.weights > 0]}
     free = np.array([int(v) not in taken for v in own.vertices], bool)
     vertices, share = own.vertices[free], own.share[free]
-    chosen = np.unique(np.abs(share[:, None] - wanted).argmin(axis=0)) if len(vertices) else np.empty(0, np.int64)
+    chosen = np.arange(len(vertices))
+    if len(vertices) > len(wanted):
+        chosen = np.unique(np.abs(share[:, None] - wanted).argmin(axis=0))
     gaps = other.at(mesh, share[chosen], corners) - mesh.vertices[vertices[chosen]]
     middle = points.subset([name]).positions(mesh.vertices)
-    gap = other.at(mesh, np.array([own.middle]), corners)[0] - middle[0]
-    return Lid(side, name, vertices[chosen], gaps, gap)
+    gap = other.at(mesh, np.array([own.middle]), corners) - middle
+    places = np.concatenate([mesh.vertices[vertices[chosen]], middle]) - ball.centre
+    arrived = places + np.concatenate([gaps, gap])
+    # A margin that dips into the eyeball comes out of it as the lid closes.
+    distance = np.maximum(np.linalg.norm(arrived, axis=1), CLEAR * _reach(mesh, ball, arrived))
+    rises = distance - np.linalg.norm(places, axis=1)
+    return Lid(ball.side, name, vertices[chosen], gaps, gap[0], rises[:-1], float(rises[-1]))
 
 
-def over_the_ball(mesh: TriMesh, ball: Eyeball, skin: IntArray, moved: FloatArray) -> FloatArray:
-    """What lifts skin out of an eyeball that it passed through: displacements (n, 3) to add.
+def around_the_ball(
+    mesh: TriMesh, ball: Eyeball, skin: IntArray, displacement: FloatArray, rise: FloatArray
+) -> FloatArray:
+    """A lid's straight motion bent around the eyeball: displacements (n, 3).
 
-    Skin that lay outside the ball stays outside; the ball's own surface counts, with its cornea, where it has one.
+    Every vertex goes where its straight path points to, seen from the ball's centre, but keeps its distance from the
+    centre: what was outside stays outside, what was inside stays inside. Where the ball itself reaches farther, as at
+    its cornea, the skin rises with it.
 
     Parameters
     ----------
     mesh : the neutral.
-    skin : (n,) vertices of the skin.
-    moved : (n, 3) their positions after a lid's motion.
+    skin : (n,) vertices.
+    displacement : (n, 3) their straight motion.
+    rise : (n,) by how much their distance from the centre shall grow.
     """
-    away, before = moved - ball.centre, mesh.vertices[skin] - ball.centre
-    wanted = CLEAR * _ball_radius(mesh, ball, away)
-    outside = np.linalg.norm(before, axis=1) >= _ball_radius(mesh, ball, before)
-    lift = np.where(outside, np.maximum(wanted - np.linalg.norm(away, axis=1), 0.0), 0.0)
-    lifted: FloatArray = unit_vectors(away) * lift[:, None]
-    return lifted
+    before = mesh.vertices[skin] - ball.centre
+    towards = unit_vectors(before + displacement)
+    bulge = np.maximum(_reach(mesh, ball, towards) - _reach(mesh, ball, before), 0.0)
+    distance = np.linalg.norm(before, axis=1) + rise + bulge
+    bent: FloatArray = towards * distance[:, None] - before
+    return bent
 
 
-def _ball_radius(mesh: TriMesh, ball: Eyeball, directions: FloatArray) -> FloatArray:
-    """(n,) how far an eyeball's surface reaches from its centre in directions (n, 3)."""
+def _reach(mesh: TriMesh, ball: Eyeball, directions: FloatArray) -> FloatArray:
+    """(n,) how far an eyeball reaches from its centre around directions (n, 3), at most; 0 where none was found."""
     if not len(ball.vertices):
-        return np.full(len(directions), ball.radius)
+        return np.zeros(len(directions))
     surface = mesh.vertices[ball.vertices] - ball.centre
     radius = np.linalg.norm(surface, axis=1)
-    nearest = cKDTree(unit_vectors(surface)).query(unit_vectors(directions), k=min(6, len(radius)))[1]
-    reach: FloatArray = radius[nearest].max(axis=1)
+    tree = cKDTree(unit_vectors(surface))
+    pairs = tree.sparse_distance_matrix(tree, AROUND, output_type="coo_matrix")
+    farthest = radius.copy()
+    np.maximum.at(farthest, pairs.row, radius[pairs.col])
+    nearest = tree.query(unit_vectors(directions), k=min(NEAREST, len(radius)))[1]
+    reach: FloatArray = farthest[nearest].mean(axis=1)
     return reach

@@ -15,7 +15,7 @@ from scipy.sparse.linalg import splu
 
 from .arrays import BoolArray, FloatArray
 from .eyeballs import Eyeball, find_eyeballs
-from .eyelids import Lid, find_lids, over_the_ball
+from .eyelids import Lid, around_the_ball, find_lids
 from .mesh import TriMesh
 from .point_weights import LEAST, point_weights
 from .points import FeaturePoints
@@ -28,8 +28,10 @@ SMOOTH = 0.018
 """How far shares are evened out along the surface, as a share of the points' extent."""
 FAINT = 1e-3
 """Evened-out shares below this are none."""
-CROWDED = 1e6
-"""Condition from which points are too crowded on a mesh to move independently."""
+ARRIVED = 0.99
+"""A point arrives if it takes this share of what it is sent."""
+CROWDED = 80.0
+"""Points that could only move independently by more than this many times their motion move together instead."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,8 +92,9 @@ def fit_deformer(
     acts = np.concatenate([acting, acting[owner]])
     weights = point_weights(mesh, joined, acts, variant, _farthest(mesh, points, lids))
     blocks, warnings = _refined(mesh, joined, acts, weights)
-    matrix = _interleaved(blocks) @ _folded(len(points), lids, points, axes)
-    matrix, arcs = _over_the_balls(mesh, points, matrix, lids, eyeballs, axes)
+    straight = _interleaved(blocks)
+    bends, arcs = _around_the_balls(mesh, points, straight, lids, eyeballs, axes)
+    matrix = straight @ _folded(len(points), lids, points, axes) + bends
     return PointDeformer(
         axes, matrix.astype(np.float32), arcs.astype(np.float32), eyeballs, tuple(lids), tuple(warnings)
     )
@@ -162,21 +165,22 @@ def _refined(
     areas = mesh.vertex_areas + 1e-12 * mesh.size**2
     even = splu((sp.diags(areas) + (SMOOTH * extent) ** 2 * mesh_laplacian(mesh)).tocsc())
     places = points.matrix(len(mesh.vertices))
-    refined, crowded = [], False
+    refined, crowded = [], np.zeros(len(points), bool)
     for axis, block in enumerate(blocks):
         rows = np.flatnonzero(acting[:, axis])
         shares = even.solve(areas[:, None] * block[:, rows].toarray())
         shares[np.abs(shares) < FAINT] = 0.0
         arriving = places[rows] @ shares
-        crowded |= bool(len(rows)) and np.linalg.cond(arriving) > CROWDED
         sent = np.linalg.pinv(arriving, rcond=1 / CROWDED)
+        crowded[rows] |= np.diag(arriving @ sent) < ARRIVED
         sent[np.abs(sent) < LEAST] = 0.0
         exact = sp.coo_matrix(sp.csr_matrix(shares) @ sp.csr_matrix(sent))
         exact.data[np.abs(exact.data) < 3 * LEAST] = 0.0
         exact.eliminate_zeros()
         refined.append(sp.csr_matrix((exact.data, (exact.row, rows[exact.col])), shape=block.shape))
-    crowd = "some points lie so close together for this mesh that they cannot move independently"
-    return tuple(refined), [crowd] if crowded else []
+    together = [name for name, close in zip(points.names, crowded, strict=True) if close]
+    crowd = f"points {', '.join(together)} lie so close together on this mesh that some of them move as one"
+    return tuple(refined), [crowd] if together else []
 
 
 def mesh_laplacian(mesh: TriMesh) -> sp.csr_matrix:
@@ -195,29 +199,43 @@ def mesh_laplacian(mesh: TriMesh) -> sp.csr_matrix:
     return (sp.diags(np.asarray(pull.sum(axis=1)).ravel()) - pull).tocsr()
 
 
-def _over_the_balls(
+def _around_the_balls(
     mesh: TriMesh,
     points: FeaturePoints,
-    matrix: sp.csr_matrix,
+    straight: sp.csr_matrix,
     lids: list[Lid],
     eyeballs: dict[str, Eyeball],
     axes: FloatArray,
 ) -> tuple[sp.csr_matrix, sp.csr_matrix]:
-    """The matrix with lids that shut outside the eyeballs, and (3V, L) their arcs on half the way."""
-    held = np.unique(points.vertices[points.weights > 0])
-    lifts, arcs = sp.lil_matrix(matrix.shape), sp.lil_matrix((matrix.shape[0], len(lids)))
+    """(3V, 3P) what bends closing lids around the eyeballs, and (3V, L) the rest of it that only half the way needs.
+
+    straight : (3V, 3 (P + G)) the motion of points and guides, in the head's axes.
+    """
+    middles = points.index([lid.middle for lid in lids])
+    others = np.setdiff1d(np.arange(len(points)), middles)
+    lid_points, held = (np.unique(points.vertices[rows][points.weights[rows] > 0]) for rows in (middles, others))
+    bends = sp.lil_matrix((straight.shape[0], 3 * len(points)))
+    arcs = sp.lil_matrix((straight.shape[0], len(lids)))
+    first = len(points)
     for column, lid in enumerate(lids):
-        ball = eyeballs[lid.side]
-        middle = int(points.index([lid.middle])[0])
-        gap = axes @ lid.gap
-        shut = (matrix[:, 3 * middle : 3 * middle + 3] @ gap).reshape(-1, 3) @ axes
-        skin = np.flatnonzero(np.linalg.norm(shut, axis=1) > 1e-2 * np.linalg.norm(gap))
-        rows = (3 * skin[:, None] + np.arange(3)).ravel()
-        lift = over_the_ball(mesh, ball, skin, mesh.vertices[skin] + shut[skin])
-        lift[np.isin(skin, held)] = 0.0
-        lifts[rows, 3 * middle : 3 * middle + 3] = np.outer((lift @ axes.T).ravel(), gap / (gap @ gap))
-        halfway = mesh.vertices[skin] + 0.5 * (shut[skin] + lift)
-        arc = over_the_ball(mesh, ball, skin, halfway)
-        arc[np.isin(skin, held)] = 0.0
-        arcs[rows, column] = (arc @ axes.T).ravel()[:, None]
-    return (matrix + lifts.tocsr()).tocsr(), arcs.tocsr()
+        ball, middle = eyeballs[lid.side], int(points.index([lid.middle])[0])
+        senders = np.array([middle, *range(first, first + len(lid.vertices))])
+        first += len(lid.vertices)
+        gaps, rises = np.concatenate([lid.gap[None], lid.gaps]), np.array([lid.rise, *lid.rises])
+        columns = 3 * senders[:, None] + np.arange(3)
+        shut = (straight[:, columns.ravel()] @ (gaps @ axes.T).ravel()).reshape(-1, 3) @ axes
+        # How far a vertex rises is shared out as its motion upwards is.
+        rise = straight[1::3][:, columns[:, 1]] @ rises
+        skin = np.flatnonzero(np.linalg.norm(shut, axis=1) > FAINT * np.linalg.norm(lid.gap))
+        # Every point stays where it is sent, a lid's own along its height, which it is measured by.
+        free = np.repeat(~np.isin(skin, held)[:, None], 3, axis=1)
+        free[:, 1] &= ~np.isin(skin, lid_points)
+        whole, half = (
+            free
+            * ((around_the_ball(mesh, ball, skin, part * shut[skin], part * rise[skin]) - part * shut[skin]) @ axes.T)
+            for part in (1.0, 0.5)
+        )
+        rows, gap = (3 * skin[:, None] + np.arange(3)).ravel(), axes @ lid.gap
+        bends[rows, 3 * middle : 3 * middle + 3] = np.outer(whole.ravel(), gap / (gap @ gap))
+        arcs[rows, column] = (half - 0.5 * whole).reshape(-1, 1)
+    return bends.tocsr(), arcs.tocsr()
