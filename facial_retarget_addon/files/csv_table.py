@@ -20,6 +20,8 @@ _SETTINGS = {
     "unit": "units",
     "units": "units",
 }
+_LONGEST_SETTING = 200
+"""Characters; a longer line is a header."""
 _SETTING = re.compile(r"[#\s\"]*([A-Za-z][A-Za-z _]*?)[\"\s]*[,;:=\t][\"\s]*([^,;\t\"]+)[,;\t\"\s]*")
 
 CsvRow = tuple[int, list[str]]
@@ -86,12 +88,15 @@ def read_csv_table(path: Path, kind: str) -> CsvTable:
     lines = read_motion_lines(path, kind)
     settings: dict[str, str] = {}
     for number, line in enumerate(lines, 1):
-        found = _SETTING.fullmatch(line)
+        found = _SETTING.fullmatch(line) if len(line) <= _LONGEST_SETTING else None
         key = _SETTINGS.get(re.sub("[ _]", "", found[1]).lower()) if found else None
         if found and key:
             settings[key] = found[2].strip()
         elif line.strip() and not line.lstrip().startswith("#"):
             delimiter = max(",;\t", key=line.count)
-            names = next(csv.reader([line], delimiter=delimiter))
+            try:
+                names = next(csv.reader([line], delimiter=delimiter))
+            except csv.Error as error:
+                raise RetargetError(f"{path}: the header in line {number} is malformed: {error}") from error
             return CsvTable(path, settings, tuple(name.strip() for name in names), lines[number:], number, delimiter)
     raise RetargetError(f"{path} has no header, expected {kind}")

@@ -22,7 +22,7 @@ VISEME_MOST = (14, 14, 63, 1)
 """Largest number in each place of FAP 1; the smallest is 0."""
 EXPRESSION_MOST = (6, 63, 6, 63, 1, 1)
 """The same of FAP 2."""
-_HEADER = re.compile(r"(\S+)\s+(?:(.*\S)\s+)?(\S+)\s+(\S+)")
+_VERSION = re.compile(r"\d+(\.\d*)?")
 _MASK = re.compile(r"[01]{68,69}")
 _SINGLE_VISEME = (0, 0, 63, 0)
 _SINGLE_EXPRESSION = (0, 63, 0, 0, 0, 0)
@@ -33,7 +33,7 @@ def read_fap(path: Path) -> FapStream:
     """Read a FAP stream.
 
     A mask may have 69 digits (the last one is passed over) and needs no blanks. FAP 1 has four numbers and FAP 2
-    six; where both are one number short of that, as some tools write them, the count of the numbers tells it.
+    six; where each is written as one number, as by some tools, the count of the numbers on the line tells it.
 
     Raises
     ------
@@ -102,15 +102,15 @@ def _statements(lines: list[str]) -> list[tuple[int, str]]:
 
 def _header(path: Path, lines: list[tuple[int, str]]) -> tuple[str, float, int]:
     """Name, rate and count of frames, taken from the right end: the name may hold blanks, or be missing."""
-    found = _HEADER.fullmatch(lines[0][1]) if lines else None
-    count = whole_number(found[4]) if found else None
-    if found is None or count is None or count < 1 or not re.fullmatch(r"\d+(\.\d*)?", found[1]):
-        shown = f"{lines[0][1]!r:.60}" if lines else "nothing"
-        raise RetargetError(
-            f"{path} is no FAP stream: it starts with {shown}, expected a version, a name, frames a second and the "
-            "number of frames"
-        )
-    return found[2] or "", checked_rate(path, found[3]), count
+    first = lines[0][1] if lines else ""
+    version, *rest = first.split(maxsplit=1) or [""]
+    match [*"".join(rest).rsplit(maxsplit=2)]:
+        case [*name, fps, frames] if _VERSION.fullmatch(version) and (count := whole_number(frames) or 0) > 0:
+            return "".join(name), checked_rate(path, fps), count
+    raise RetargetError(
+        f"{path} is no FAP stream: it starts with {first!r:.60}, expected a version, a name, frames a second and the "
+        "number of frames"
+    )
 
 
 def _masks(path: Path, lines: list[tuple[int, str]]) -> BoolArray:

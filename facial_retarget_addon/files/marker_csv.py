@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 
 import numpy as np
@@ -13,8 +12,6 @@ from .csv_table import CsvTable, read_csv_table
 from .csv_times import rows_timing
 from .marker_take import marker_take
 from .number_rows import numbers
-
-_COORDINATE = re.compile(r"(.*\S)\s*[_.: ]\s*([XYZ])", re.IGNORECASE)
 
 
 def read_marker_csv(path: Path, fps: float | None = None) -> MarkerTake:
@@ -34,15 +31,15 @@ def read_marker_csv(path: Path, fps: float | None = None) -> MarkerTake:
 
 def has_markers(table: CsvTable) -> bool:
     """Whether any column is a coordinate of a marker."""
-    return any(map(_COORDINATE.fullmatch, table.names))
+    return any(map(_coordinate, table.names))
 
 
 def table_markers(table: CsvTable, fps: float | None = None) -> MarkerTake:
     """The take that a table holds; see `read_marker_csv`."""
     markers: dict[str, dict[str, int]] = {}
     for place, column in enumerate(table.names):
-        found = _COORDINATE.fullmatch(column)
-        if found and markers.setdefault(found[1], {}).setdefault(found[2].lower(), place) != place:
+        found = _coordinate(column)
+        if found and markers.setdefault(found[0], {}).setdefault(found[1], place) != place:
             raise RetargetError(f"{table.path} has the column {column!r:.60} twice")
     if not markers:
         raise RetargetError(f"{table.path} has no markers, expected columns such as chin_x, chin_y and chin_z")
@@ -59,3 +56,10 @@ def table_markers(table: CsvTable, fps: float | None = None) -> MarkerTake:
     positions = np.full((frames[-1] + 1, len(markers), 3), np.nan)
     positions[frames] = given.reshape(len(rows), -1, 3)
     return marker_take(table.path, rate, [*markers], positions, table.settings.get("units", ""))
+
+
+def _coordinate(column: str) -> tuple[str, str] | None:
+    """Marker and axis of a column, or None."""
+    stem, axis = column[:-1], column[-1:].lower()
+    marker = stem.rstrip().rstrip("_.:").rstrip()
+    return (marker, axis) if marker and marker != stem and axis in ("x", "y", "z") else None

@@ -117,7 +117,7 @@ def test_tools_that_write_fap_1_and_2_as_one_number(tmp_path):
     ("text", "said"),
     [
         ("", "is empty"),
-        ("# nothing else\n", "starts with nothing"),
+        ("# nothing else\n", "starts with '', expected a version"),
         ("PK\x03\x04\0\0\0", "is not a FAP stream"),
         ("hello there\n", "starts with 'hello there'"),
         ("2.1 a 25 0\n", "expected a version"),

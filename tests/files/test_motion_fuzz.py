@@ -189,6 +189,18 @@ def test_huge_files_and_claims_cost_neither_time_nor_memory(tmp_path, name):
     tracemalloc.stop()
 
 
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize(
+    "line", ["a" + " " * 300_000 + "b", "a _" * 100_000, "1 " * 100_000, "0" * 300_000, "x," * 65_000]
+)
+def test_endless_lines_are_refused_at_once(tmp_path, name, line):
+    head = sound(tmp_path, name).decode("latin-1")[:300].rpartition("\n")[0]
+    started = time.perf_counter()
+    for text in (line, f"{head}\n{line}\n"):
+        assert said_about(tmp_path / name, text.encode("latin-1"))
+    assert time.perf_counter() - started < 5
+
+
 def test_suffixes_and_tables_that_hold_no_motion(tmp_path):
     with pytest.raises(RetargetError, match=r"is a \.fbx, expected one of \.fap, \.trc, \.c3d, \.bvh, \.csv"):
         read_motion(tmp_path / "a.fbx")
