@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 import pytest
 
+from facial_retarget_addon import demo
 from facial_retarget_addon.core.mesh import TriMesh
 from facial_retarget_addon.core.methods.settings import HierarchicalSettings
 from facial_retarget_addon.core.points import FeaturePoints
@@ -104,6 +106,28 @@ class StandIn:
 def no_method(monkeypatch: pytest.MonkeyPatch) -> None:
     """Only files and checks are looked at: the method is a stand-in."""
     monkeypatch.setattr("facial_retarget_addon.core.retarget.fit", StandIn)
+
+
+class FaceOnDisk(NamedTuple):
+    """A small built-in face with MPEG-4 points: what it is, and its files."""
+
+    actor: demo.DemoFace
+    neutral: Path
+    points: Path
+
+    @property
+    def arguments(self) -> list[str]:
+        return ["--face", str(self.neutral), "--points", str(self.points)]
+
+
+@pytest.fixture(scope="session")
+def face(tmp_path_factory: pytest.TempPathFactory) -> FaceOnDisk:
+    """The built-in actor on few vertices, as files."""
+    actor, folder = demo.actor(vertices=6000), tmp_path_factory.mktemp("face")
+    uvs = actor.uvs[actor.corners]
+    write_mesh(MeshFile(actor.face.mesh, actor.counts, actor.corners, uvs), folder / "neutral.obj")
+    write_points(actor.face.points, folder / "points.json")
+    return FaceOnDisk(actor, folder / "neutral.obj", folder / "points.json")
 
 
 @pytest.fixture
