@@ -50,10 +50,15 @@ class FACIAL_RETARGET_PG_example(PropertyGroup):
     """An example expression: the shape key of this name on both faces. `name` is inherited."""
 
 
+def _label(name: str) -> str:
+    """A name of the core as an artist reads it."""
+    return name.replace("_", " ").capitalize()
+
+
 def _property(setting: Field) -> Any:
     """The Blender property of one setting of a method."""
     limits = setting.metadata
-    text = {"name": setting.name.replace("_", " ").capitalize(), "description": limits["help"]}
+    text = {"name": _label(setting.name), "description": limits["help"]}
     if isinstance(setting.default, str):
         items = [(choice, choice.capitalize(), limits["help"]) for choice in limits["choices"]]
         return EnumProperty(items=items, default=setting.default, **text)
@@ -100,7 +105,7 @@ class FACIAL_RETARGET_PG_task(PropertyGroup):
     )
     examples: CollectionProperty(type=FACIAL_RETARGET_PG_example)
     active_example: IntProperty(name="Active example")
-    method: EnumProperty(name="Method", items=[(name, name.capitalize(), text) for name, text in METHODS.items()])
+    method: EnumProperty(name="Method", items=[(name, _label(name), text) for name, text in METHODS.items()])
     report: StringProperty(name="Report", subtype="FILE_PATH", description="Where to write the figures (.json)")
     page: StringProperty(name="Page", subtype="FILE_PATH", description="Where to write the page to look at (.html)")
     output: StringProperty(
