@@ -20,8 +20,6 @@ SOFT = 0.25
 """Weight of the nearest neighbour's distance in a point's reach, against the neighbours that lie in the direction."""
 LEAST = 1e-4
 """Shares of a point's motion below this are none."""
-REACH = 0.8
-"""Paths are followed this far, as a share of the extent of the points."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,8 +77,7 @@ def point_weights(
     """
     paper = variant == "paper"
     places = points.positions(mesh.vertices)
-    limit = REACH * float(np.linalg.norm(np.ptp(places, axis=0))) if len(places) else 0.0
-    distances = surface_distances(mesh, points, limit, None if paper else shortcut_graph(mesh))
+    distances = surface_distances(mesh, points, graph=None if paper else shortcut_graph(mesh))
     between = distances_between(distances, mesh, points)
     normals = unit_vectors(np.einsum("pk,pkc->pc", points.weights, mesh.vertex_normals[points.vertices]))
     matrices = []
