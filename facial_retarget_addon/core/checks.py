@@ -15,13 +15,16 @@ from scipy.sparse.csgraph import connected_components
 
 from .arrays import BoolArray, FloatArray, IntArray
 from .errors import RetargetError
-from .methods.settings import Settings
+from .methods.settings import HierarchicalSettings, Settings
+from .mpeg4.regions import OWN_PARTS
 from .points import FeaturePoints, common_names
 from .problem import Face, Problem
 from .rigid import fit_rigid
 
 LEAST_POINTS = 30
 """Common feature points from which a base mesh can be made."""
+FEWEST_POINTS = 8
+"""Common feature points from which a method without a base mesh can work."""
 BAD_SHARE = 0.01
 """Bad faces of the skin that a method survives."""
 NO_AREA = 1e-12
@@ -48,9 +51,10 @@ def faults(problem: Problem, frames: FloatArray | None, settings: Settings) -> l
     found: list[str] = []
     for side, face in _sides(problem):
         found += _unusable(side, face) or [*_bad_faces(side, face, True), *_stray_points(side, face)]
-    found += _missing_points(problem)
+    found += _missing_points(problem, LEAST_POINTS if isinstance(settings, HierarchicalSettings) else FEWEST_POINTS)
     found += _example_faults(problem)
-    found += _level_faults(problem, settings)
+    if isinstance(settings, HierarchicalSettings):
+        found += _level_faults(problem, settings)
     if frames is not None:
         found += _frame_faults(problem.source, frames)
         if not found and _moves_rigidly(problem.source, frames):
@@ -178,7 +182,8 @@ def _stray_points(side: str, face: Face) -> list[str]:
     found: list[str] = []
     components = _point_components(face)
     most = np.argmax(np.bincount(components))
-    stray = [face.points.names[row] for row in np.flatnonzero(components != most)]
+    names = [face.points.names[row] for row in np.flatnonzero(components != most)]
+    stray = [name for name in names if name not in OWN_PARTS]
     if stray:
         found.append(f"{side}: points {_listed(stray)} lie on another part of the mesh than the others; move them")
     same = _same_places(face.points, len(face.mesh.vertices))
@@ -204,7 +209,7 @@ def _same_places(points: FeaturePoints, vertex_count: int) -> list[tuple[str, st
     return same
 
 
-def _missing_points(problem: Problem) -> list[str]:
+def _missing_points(problem: Problem, least: int) -> list[str]:
     if problem.base is not None:
         names = list(dict.fromkeys(name for triangle in problem.base for name in triangle))
         missing = {
@@ -212,11 +217,12 @@ def _missing_points(problem: Problem) -> list[str]:
         }
         return [f"the base mesh uses points that the {side} lacks: {_listed(m)}" for side, m in missing.items() if m]
     common = len(common_names(problem.source.points, problem.target.points))
-    if common >= LEAST_POINTS:
+    if common >= least:
         return []
+    base = " or a base mesh of your own" if least == LEAST_POINTS else ""
     return [
         f"source and target have {common} feature points in common (of {len(problem.source.points)} and "
-        f"{len(problem.target.points)}), expected at least {LEAST_POINTS} or a base mesh of your own"
+        f"{len(problem.target.points)}), expected at least {least}{base}"
     ]
 
 
@@ -258,7 +264,7 @@ def _same_examples(face: Face) -> list[tuple[str, str]]:
 
 
 # ---- levels and frames --------------------------------------------------------------------------
-def _level_faults(problem: Problem, settings: Settings) -> list[str]:
+def _level_faults(problem: Problem, settings: HierarchicalSettings) -> list[str]:
     """A triangulation of n points has about n * 4**level vertices after that many subdivisions."""
     if problem.base is not None:
         points = len({name for triangle in problem.base for name in triangle})

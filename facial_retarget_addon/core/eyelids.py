@@ -52,6 +52,11 @@ class Lid:
     rises: FloatArray
     rise: float
 
+    def shut(self, displacements: FloatArray) -> FloatArray:
+        """(F,) how far displacements (F, 3) of the middle shut the lid: 0 open, 1 on the other lid."""
+        share: FloatArray = displacements @ self.gap / (self.gap @ self.gap)
+        return share
+
     def guidance(self) -> FloatArray:
         """(G, 3, 3) what a displacement of the middle does to each guide.
 
@@ -63,6 +68,13 @@ class Lid:
         shut = np.einsum("gi,j->gij", self.gaps, along) / length
         sizes = np.linalg.norm(self.gaps, axis=1) / length
         return shut + sizes[:, None, None] * (np.eye(3) - np.outer(along, along))
+
+
+def half_shut(share: FloatArray) -> FloatArray:
+    """0 for lids that are open or shut (share 0 or 1), 1 for lids on half the way."""
+    clipped = np.clip(share, 0.0, 1.0)
+    half: FloatArray = 4 * clipped * (1 - clipped)
+    return half
 
 
 def find_lids(mesh: TriMesh, points: FeaturePoints, eyeballs: Mapping[str, Eyeball]) -> list[Lid]:

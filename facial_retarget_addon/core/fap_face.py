@@ -68,7 +68,6 @@ class FapFace:
         self.measurable: BoolArray = self._motion.measurable
         self.channels = self._names()
         self._neutral = mesh.vertices.astype(np.float32)
-        self._lid_rows = [int(known.index([lid.middle])[0]) for lid in self.deformer.lids]
         self._basis = sp.hstack(
             [self.deformer.matrix[:, self._moving], self.deformer.arcs, *map(self._eye_basis, self._eyes)], format="csr"
         ).astype(np.float32)
@@ -79,7 +78,7 @@ class FapFace:
         turn_head : whether FAPs 48 to 50 turn everything about the top of the spine.
         """
         values = self._checked(values)
-        moved = self._basis @ self.channel_values(values).T.astype(np.float32)
+        moved: FloatArray = self._basis @ self.channel_values(values).T.astype(np.float32)
         frames: FloatArray = np.ascontiguousarray(moved.T).reshape(len(values), -1, 3) @ self.axes.astype(np.float32)
         frames += self._neutral
         if turn_head:
@@ -106,9 +105,8 @@ class FapFace:
         values = self._checked(values)
         points = self._motion.displacements(values)
         inside = (points @ self.axes.T).reshape(len(values), -1)[:, self._moving]
-        arcs = [_half_shut(points[:, row] @ lid.gap / (lid.gap @ lid.gap)) for row, lid in self._lids]
         eyes = [self._eye_values(eye, values) for eye in self._eyes]
-        return np.concatenate([inside, *(arc[:, None] for arc in arcs), *eyes], axis=1)
+        return np.concatenate([inside, self.deformer.half_shut(points), *eyes], axis=1)
 
     def channel_shapes(self) -> FloatArray:
         """Positions (C, V, 3) float32 at value 1 of each channel."""
@@ -135,10 +133,6 @@ class FapFace:
             "weights_per_vertex": self._basis.nnz / max(len(self.mesh.vertices), 1),
             "warnings": list(self.deformer.warnings),
         }
-
-    @property
-    def _lids(self) -> list[tuple[int, Any]]:
-        return list(zip(self._lid_rows, self.deformer.lids, strict=True))
 
     def _playable(self) -> BoolArray:
         playable: BoolArray = self._motion.measurable.copy()
@@ -187,13 +181,6 @@ class FapFace:
 
 
 _EYE_CHANNELS = (*(f"turn {row}{column}" for row in "xyz" for column in "xyz"), "thrust", "pupil")
-
-
-def _half_shut(share: FloatArray) -> FloatArray:
-    """0 for a lid that is open or shut (share 0 or 1), 1 for one on half the way."""
-    clipped = np.clip(share, 0.0, 1.0)
-    arc: FloatArray = 4 * clipped * (1 - clipped)
-    return arc
 
 
 def fit_fap_face(

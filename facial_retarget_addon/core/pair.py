@@ -19,6 +19,7 @@ from .binding import Binding, bind
 from .carry import LinearMotion, local_turns
 from .correspondence import Correspondence, correspond, places_on_source
 from .mesh import TriMesh
+from .mpeg4.regions import OWN_PARTS
 from .normal_mesh import NormalLevel, NormalMesh, build_normal_mesh
 from .points import FeaturePoints, common_names, place_matrix
 from .problem import Problem
@@ -195,7 +196,8 @@ def prepare_pair(problem: Problem, levels: int, base_points: int, progress: Prog
     RetargetError : if the points do not span a base mesh; names what to change.
     """
     source, target = problem.source.mesh, problem.target.mesh
-    names = common_names(problem.source.points, problem.target.points)
+    common = common_names(problem.source.points, problem.target.points)
+    names = [name for name in common if name not in OWN_PARTS]
     on_source, on_target = problem.source.points.subset(names), problem.target.points.subset(names)
     found = correspond(source, on_source, target, on_target, lambda share, what: progress(0.5 * share, what))
     similarity = fit_similarity(on_source.positions(source.vertices), on_target.positions(target.vertices))

@@ -15,7 +15,7 @@ from scipy.sparse.linalg import splu
 
 from .arrays import BoolArray, FloatArray
 from .eyeballs import Eyeball, find_eyeballs
-from .eyelids import Lid, around_the_ball, find_lids
+from .eyelids import Lid, around_the_ball, find_lids, half_shut
 from .mesh import TriMesh
 from .point_weights import LEAST, point_weights
 from .points import FeaturePoints
@@ -45,6 +45,7 @@ class PointDeformer:
     arcs : (3V, L) csr float32, what lifts each lid's skin over the eyeball when the lid is half shut, in those axes.
     eyeballs : by side.
     lids : whose margins were found.
+    lid_rows : the point in the middle of each.
     warnings : what an artist should know.
     """
 
@@ -53,14 +54,23 @@ class PointDeformer:
     arcs: sp.csr_matrix
     eyeballs: dict[str, Eyeball]
     lids: tuple[Lid, ...]
+    lid_rows: tuple[int, ...]
     warnings: tuple[str, ...]
 
     def displacements(self, points: FloatArray) -> FloatArray:
         """Displacements (F, V, 3) float32 of the vertices for (F, P, 3) of the points, in the object's axes."""
-        turned = (np.asarray(points, np.float64) @ self.axes.T).astype(np.float32)
-        moved = self.matrix @ turned.reshape(len(turned), -1).T
+        points = np.asarray(points, np.float64)
+        turned = (points @ self.axes.T).astype(np.float32)
+        moved: FloatArray = self.matrix @ turned.reshape(len(turned), -1).T
+        if self.lids:
+            moved += self.arcs @ self.half_shut(points).T.astype(np.float32)
         back: FloatArray = np.ascontiguousarray(moved.T).reshape(len(turned), -1, 3) @ self.axes.astype(np.float32)
         return back
+
+    def half_shut(self, points: FloatArray) -> FloatArray:
+        """(F, L) how near each lid is to half the way, for displacements (F, P, 3) of the points."""
+        shares = [half_shut(lid.shut(points[:, row])) for row, lid in zip(self.lid_rows, self.lids, strict=True)]
+        return np.stack(shares, axis=1) if shares else np.zeros((len(points), 0))
 
 
 def fit_deformer(
@@ -85,7 +95,7 @@ def fit_deformer(
     if variant == "paper":
         blocks = point_weights(mesh, points, acting, variant)
         arcs = sp.csr_matrix((3 * len(mesh.vertices), 0), dtype=np.float32)
-        return PointDeformer(axes, _interleaved(blocks).astype(np.float32), arcs, eyeballs, (), ())
+        return PointDeformer(axes, _interleaved(blocks).astype(np.float32), arcs, eyeballs, (), (), ())
     lids = [lid for lid in find_lids(mesh, points, eyeballs) if acting[points.index([lid.middle])[0]].any()]
     joined = points.joined(_guides(lids))
     owner = points.index([lid.middle for lid in lids for _ in lid.vertices])
@@ -95,8 +105,9 @@ def fit_deformer(
     straight = _interleaved(blocks)
     bends, arcs = _around_the_balls(mesh, points, straight, lids, eyeballs, axes)
     matrix = straight @ _folded(len(points), lids, points, axes) + bends
+    rows = tuple(int(row) for row in points.index([lid.middle for lid in lids]))
     return PointDeformer(
-        axes, matrix.astype(np.float32), arcs.astype(np.float32), eyeballs, tuple(lids), tuple(warnings)
+        axes, matrix.astype(np.float32), arcs.astype(np.float32), eyeballs, tuple(lids), rows, tuple(warnings)
     )
 
 

@@ -17,14 +17,23 @@ from facial_retarget_addon.core.points import FeaturePoints
 from facial_retarget_addon.core.problem import Face, Problem
 from facial_retarget_addon.core.retarget import retarget
 
-RESOLUTION = {"hierarchical": 0.03}
-"""Method -> relative error of a face onto itself that it states as its own."""
+RESOLUTION = {"hierarchical": 0.03, "feature_points": 0.35}
+"""Method -> relative error of a face onto itself that it states as its own: points do not carry what is between them."""
+
+QUICK: dict[str, dict[str, object]] = {"hierarchical": {"levels": 2}, "feature_points": {}}
+"""Method -> settings that are quick to fit."""
+
+STEERED = ("hierarchical",)
+"""Methods that examples steer; the others say that they do not use them."""
 
 VARIANTS = [
     ("hierarchical", {"levels": 3}),
     ("hierarchical", {"levels": 2, "base_gain": 0.8, "level_gains": (0.5,), "detail_scale": 0.3}),
     ("hierarchical", {"levels": 2, "frames": "global", "read": "pierce"}),
     ("hierarchical", {"levels": 2, "variant": "paper"}),
+    ("feature_points", {}),
+    ("feature_points", {"variant": "paper"}),
+    ("feature_points", {"motion": "faps"}),
 ]
 
 
@@ -141,7 +150,7 @@ def plain(problem: Problem) -> Problem:
 
 @pytest.mark.parametrize("method", METHODS)
 def test_place_size_and_turn_of_the_source_do_not_matter(method: str, plain: Problem, frames: np.ndarray) -> None:
-    settings = settings_of(method, {"levels": 2})
+    settings = settings_of(method, QUICK[method])
     wanted = fit(method, plain, settings).frames(frames)
     turned = replace(plain, source=moved_face(plain.source, 40.0, ROTATION, SHIFT))
     found = fit(method, turned, settings).frames(40.0 * frames @ ROTATION.T + SHIFT)
@@ -150,7 +159,7 @@ def test_place_size_and_turn_of_the_source_do_not_matter(method: str, plain: Pro
 
 @pytest.mark.parametrize("method", METHODS)
 def test_place_size_and_turn_of_the_target_do_not_matter(method: str, plain: Problem, frames: np.ndarray) -> None:
-    settings = settings_of(method, {"levels": 2})
+    settings = settings_of(method, QUICK[method])
     wanted = fit(method, plain, settings).frames(frames)
     turned = replace(plain, target=moved_face(plain.target, 0.02, ROTATION, SHIFT))
     found = fit(method, turned, settings).frames(frames)
@@ -167,7 +176,7 @@ def shuffled(face: Face, order: np.ndarray) -> Face:
 @pytest.mark.parametrize("method", METHODS)
 def test_the_order_of_vertices_does_not_matter(method: str, plain: Problem, frames: np.ndarray) -> None:
     rng = np.random.default_rng(11)
-    settings = settings_of(method, {"levels": 2})
+    settings = settings_of(method, QUICK[method])
     wanted = fit(method, plain, settings).frames(frames)
     ours = rng.permutation(len(plain.source.mesh.vertices))
     theirs = rng.permutation(len(plain.target.mesh.vertices))
@@ -179,15 +188,15 @@ def test_the_order_of_vertices_does_not_matter(method: str, plain: Problem, fram
 @pytest.mark.parametrize("method", METHODS)
 def test_a_face_onto_itself_is_itself(method: str, plain: Problem, frames: np.ndarray) -> None:
     itself = replace(plain, target=plain.source)
-    found = fit(method, itself, settings_of(method, {"levels": 2})).frames(frames)
+    found = fit(method, itself, settings_of(method, QUICK[method])).frames(frames)
     rest = plain.source.mesh.vertices
     error = np.linalg.norm(found - frames) / np.linalg.norm(frames - rest)
     assert error <= RESOLUTION[method]
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", STEERED)
 def test_examples_are_met(method: str, problem: Problem, actor: demo.DemoFace) -> None:
-    fitted = fit(method, problem, settings_of(method, {"levels": 2}))
+    fitted = fit(method, problem, settings_of(method, QUICK[method]))
     for example in fitted.report["examples"]:
         assert example["fit"] < 0.3
     source = actor.face.examples["joy"].astype(np.float32)[None]
@@ -196,9 +205,16 @@ def test_examples_are_met(method: str, problem: Problem, actor: demo.DemoFace) -
     assert np.linalg.norm(fitted.frames(source)[0] - wanted) < 0.3 * np.linalg.norm(wanted - rest)
 
 
+@pytest.mark.parametrize("method", sorted(set(METHODS) - set(STEERED)))
+def test_examples_that_are_not_used_are_named(method: str, problem: Problem) -> None:
+    fitted = fit(method, problem, settings_of(method, QUICK[method]))
+    assert fitted.report["examples"] == []
+    assert "examples are not used by this method" in fitted.report["warnings"]
+
+
 @pytest.mark.parametrize("method", METHODS)
 def test_eyes_and_teeth_stay_put_and_are_named(method: str, problem: Problem, frames: np.ndarray) -> None:
-    run = retarget(method, problem, settings_of(method, {"levels": 2}), frames)
+    run = retarget(method, problem, settings_of(method, QUICK[method]), frames)
     still = sum(part["vertices"] for part in run.report["still_components"])
     assert still > 0
     assert any("stay put" in warning for warning in run.report["warnings"])
@@ -215,7 +231,7 @@ def test_stopping_is_heard(method: str, plain: Problem, frames: np.ndarray) -> N
                 raise Cancelled
 
         with pytest.raises(Cancelled):
-            retarget(method, plain, settings_of(method, {"levels": 2}), frames, progress)
+            retarget(method, plain, settings_of(method, QUICK[method]), frames, progress)
         yield limit
 
     assert [limit for at in (0.0, 0.2, 0.6) for limit in stop_at(at)] == [0.0, 0.2, 0.6]
@@ -224,9 +240,9 @@ def test_stopping_is_heard(method: str, plain: Problem, frames: np.ndarray) -> N
 @pytest.mark.parametrize("method", METHODS)
 def test_frames_of_another_vertex_count_are_refused(method: str, plain: Problem, frames: np.ndarray) -> None:
     with pytest.raises(RetargetError, match=rf"{frames.shape[1] - 1}.*expected \(F, {frames.shape[1]}, 3\)"):
-        retarget(method, plain, settings_of(method, {"levels": 2}), frames[:, 1:], no_progress)
+        retarget(method, plain, settings_of(method, QUICK[method]), frames[:, 1:], no_progress)
 
 
 def test_unknown_methods_are_named(plain: Problem) -> None:
-    with pytest.raises(RetargetError, match=r"'magic' is unknown, expected one of hierarchical"):
+    with pytest.raises(RetargetError, match=r"'magic' is unknown, expected one of hierarchical, feature_points"):
         fit("magic", plain, SETTINGS["hierarchical"]())

@@ -58,10 +58,29 @@ class HierarchicalSettings:
         return self.level_gains[level - 1] if level <= len(self.level_gains) else 1.0
 
 
-Settings = HierarchicalSettings
+@dataclass(frozen=True)
+class FeaturePointSettings:
+    """Settings of the feature-point method (Kshirsagar, Garchery and Magnenat-Thalmann 2003)."""
+
+    motion: str = _setting(
+        "free",
+        "free: every common point moves along all three axes; faps: only what MPEG-4's parameters can say",
+        choices=("free", "faps"),
+    )
+    variant: str = _setting(
+        "default",
+        "default: continuous weights, lids that shut; paper: the published weights",
+        choices=("default", "paper"),
+    )
+
+
+Settings = HierarchicalSettings | FeaturePointSettings
 """Any method's settings."""
 
-SETTINGS: dict[str, type[HierarchicalSettings]] = {"hierarchical": HierarchicalSettings}
+SETTINGS: dict[str, type[HierarchicalSettings] | type[FeaturePointSettings]] = {
+    "hierarchical": HierarchicalSettings,
+    "feature_points": FeaturePointSettings,
+}
 """Method name -> its settings class."""
 
 

@@ -1,0 +1,207 @@
+"""Feature-point retargeting (Kshirsagar et al. 2003): the source's points drive the target's, and they its surface.
+
+Motion is measured in the units of each face (FAPU), so that a wide mouth smiles as wide as it is. Only the points
+travel: what the source does between them, wrinkles above all, does not.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from ..arrays import FloatArray, IntArray, Progress, no_progress
+from ..errors import RetargetError
+from ..eyeballs import find_eyeballs
+from ..eyelids import Lid, find_lids
+from ..fap_face import FapFace, fit_fap_face
+from ..mesh import TriMesh
+from ..mpeg4.channels import PointChannels
+from ..mpeg4.faps import FAPS
+from ..mpeg4.fapu import measure_fapu
+from ..mpeg4.fdps import FDPS
+from ..mpeg4.head import head_axes
+from ..mpeg4.regions import point_lengths
+from ..point_deformer import PointDeformer, fit_deformer
+from ..points import FeaturePoints, common_names
+from ..problem import Problem
+from ..smooth_warp import fit_smooth_warp
+from .settings import FeaturePointSettings
+
+ONE_WAY = [fap.number - 1 for fap in FAPS if fap.one_way]
+"""Columns of the FAPs whose values below 0 have no meaning."""
+
+
+class FeaturePointRetargeter:
+    """A fitted pair of faces.
+
+    Parameters
+    ----------
+    problem : the two faces.
+    settings : of the method.
+    points : the common points, on the source and on the target.
+    """
+
+    def __init__(
+        self, problem: Problem, settings: FeaturePointSettings, points: tuple[FeaturePoints, FeaturePoints]
+    ) -> None:
+        """Fit; see `fit`."""
+        self._problem = problem
+        self._source, self._target = problem.source.mesh, problem.target.mesh
+        self._points = points
+        self._motion: _FreeMotion | _FapMotion
+        kind = _FapMotion if settings.motion == "faps" else _FreeMotion
+        self._motion = kind(self._source, self._target, *points, settings)
+        self._read = points[0].positions(self._source.vertices)
+
+    def frames(self, source: FloatArray) -> FloatArray:
+        """Target positions (F, Vt, 3) float32 of source frames (F, Vs, 3)."""
+        source = np.asarray(source)
+        if source.ndim != 3 or source.shape[1:] != self._source.vertices.shape:
+            raise RetargetError(
+                f"source frames have shape {source.shape}, expected (F, {len(self._source.vertices)}, 3)"
+            )
+        there = self._points[0].positions(source.astype(np.float32)).astype(np.float64)
+        return self._motion.frames(there - self._read.astype(np.float32))
+
+    def detail(self, source: FloatArray) -> tuple[FloatArray, IntArray]:
+        """The target's frames and its faces: this method has no finer mesh."""
+        return self.frames(source), self._target.faces
+
+    @cached_property
+    def counterpart(self) -> IntArray:
+        """(Vt,) source vertex nearest to each target vertex when the points of both faces are laid on one another."""
+        source, target = self._source, self._target
+        warp = fit_smooth_warp(self._points[1].positions(target.vertices), self._read, stiffness=1e-3)
+        nearest: IntArray = cKDTree(source.vertices).query(warp.apply(target.vertices))[1].astype(np.int64)
+        return nearest
+
+    @cached_property
+    def report(self) -> Mapping[str, Any]:
+        """Figures of the fit, as plain data."""
+        warnings = [*self._motion.warnings]
+        if self._problem.source.examples:
+            warnings.append("examples are not used by this method")
+        moved = set(np.unique(self._motion.deformer.matrix.nonzero()[0] // 3).tolist())
+        for eye in self._motion.deformer.eyeballs.values():
+            moved |= set(eye.vertices.tolist()) if isinstance(self._motion, _FapMotion) else set()
+        still = _still_components(self._target, moved)
+        if still:
+            total = sum(part["vertices"] for part in still)
+            warnings.append(f"{len(still)} parts of the target ({total} vertices) hold no feature point and stay put")
+        return {
+            "source": {"vertices": len(self._source.vertices), "faces": len(self._source.faces)},
+            "target": {"vertices": len(self._target.vertices), "faces": len(self._target.faces)},
+            "points": len(self._points[0]),
+            **self._motion.report,
+            "still_components": still,
+            "examples": [],
+            "warnings": warnings,
+        }
+
+
+def fit(problem: Problem, settings: FeaturePointSettings, progress: Progress = no_progress) -> FeaturePointRetargeter:
+    """Fit the feature-point method to a pair of faces.
+
+    Raises
+    ------
+    RetargetError : if the faces have too few points in common, or points without MPEG-4 names.
+
+    References
+    ----------
+    Kshirsagar, Garchery and Magnenat-Thalmann 2003.
+    """
+    names = common_names(problem.source.points, problem.target.points)
+    progress(0.0, "finding what each point moves")
+    pair = problem.source.points.subset(names), problem.target.points.subset(names)
+    retargeter = FeaturePointRetargeter(problem, settings, pair)
+    progress(1.0, "fitted")
+    return retargeter
+
+
+class _FapMotion:
+    """Points to FAPs by the source's units, FAPs to the target by its own: what the standard can say, and no more."""
+
+    def __init__(
+        self,
+        source: TriMesh,
+        target: TriMesh,
+        source_points: FeaturePoints,
+        target_points: FeaturePoints,
+        settings: FeaturePointSettings,
+    ) -> None:
+        known = [name for name in source_points.names if name in FDPS]
+        self._rows = source_points.index(known)
+        places = source_points.subset(known).positions(source.vertices)
+        axes = head_axes(known, places)
+        fapu = measure_fapu(known, places, axes)
+        self._channels = PointChannels(known, places, axes, fapu)
+        self._face: FapFace = fit_fap_face(target, target_points, settings.variant)
+        self.deformer = self._face.deformer
+        self.warnings = self._face.report["warnings"]
+        self.report = {"fapu": {"source": fapu.taken, "target": self._face.fapu.taken}}
+
+    def frames(self, displacements: FloatArray) -> FloatArray:
+        """Target positions (F, Vt, 3) of displacements (F, P, 3) of the source's points."""
+        values = self._channels.values(displacements[:, self._rows])
+        values[:, ONE_WAY] = np.maximum(values[:, ONE_WAY], 0.0)
+        return self._face.frames(values)
+
+
+class _FreeMotion:
+    """Every point moves along all three axes, each in the units of its region; lids close as far as the source's do."""
+
+    def __init__(
+        self,
+        source: TriMesh,
+        target: TriMesh,
+        source_points: FeaturePoints,
+        target_points: FeaturePoints,
+        settings: FeaturePointSettings,
+    ) -> None:
+        names = source_points.names
+        places = [source_points.positions(source.vertices), target_points.positions(target.vertices)]
+        self._axes = [head_axes(names, there) for there in places]
+        fapus = [measure_fapu(names, there, axes) for there, axes in zip(places, self._axes, strict=True)]
+        lengths = point_lengths(names, places[0], fapus)
+        self._scale = lengths[1] / lengths[0]
+        acting = np.ones((len(names), 3), bool)
+        self.deformer: PointDeformer = fit_deformer(target, target_points, self._axes[1], acting, settings.variant)
+        self._lids = _lid_pairs(source, source_points, self._axes[0], self.deformer.lids)
+        self._neutral = target.vertices.astype(np.float32)
+        self.warnings = list(self.deformer.warnings)
+        self.report = {"fapu": {"source": fapus[0].taken, "target": fapus[1].taken}}
+
+    def frames(self, displacements: FloatArray) -> FloatArray:
+        """Target positions (F, Vt, 3) of displacements (F, P, 3) of the source's points."""
+        shut = []
+        left = np.array(displacements, np.float64)
+        for row, ours, _ in self._lids:
+            shut.append(ours.shut(left[:, row]))
+            left[:, row] -= shut[-1][:, None] * ours.gap
+        sent = (left @ self._axes[0].T * self._scale) @ self._axes[1]
+        for share, (row, _, theirs) in zip(shut, self._lids, strict=True):
+            sent[:, row] += share[:, None] * theirs.gap
+        return self._neutral + self.deformer.displacements(sent)
+
+
+def _lid_pairs(
+    source: TriMesh, points: FeaturePoints, axes: FloatArray, lids: tuple[Lid, ...]
+) -> list[tuple[int, Lid, Lid]]:
+    """The row of each lid's middle, and the lid on the source and on the target."""
+    ours = {lid.middle: lid for lid in find_lids(source, points, find_eyeballs(source, points, axes))}
+    return [(int(points.index([lid.middle])[0]), ours[lid.middle], lid) for lid in lids if lid.middle in ours]
+
+
+def _still_components(mesh: TriMesh, moved: set[int]) -> list[dict[str, int]]:
+    """Components of which no vertex follows a point."""
+    follows = np.zeros(len(mesh.vertices), bool)
+    follows[list(moved)] = True
+    count = mesh.components.max() + 1
+    still = np.bincount(mesh.components, follows, count) == 0
+    size = np.bincount(mesh.components, minlength=count)
+    first = np.unique(mesh.components, return_index=True)[1]
+    return [{"vertices": int(size[k]), "first_vertex": int(first[k])} for k in np.flatnonzero(still)]
