@@ -80,3 +80,21 @@ class InSteps:
     def _finished(self, result: Any) -> set[str]:
         self.finish(result)
         return {"FINISHED"}
+
+
+class FromBrowser:
+    """For operators in steps that ask for a file first. Stands before the helper that asks, `InSteps` after it."""
+
+    browsing = False
+
+    def invoke(self, context: Context, event: Event) -> set[str]:
+        """Ask for the file; Blender then calls `execute`."""
+        self.browsing = True
+        return super().invoke(context, event)
+
+    def execute(self, context: Context) -> set[str]:
+        """In steps once the file was chosen, at once in a script or when the artist changes the settings afterwards."""
+        if self.browsing:
+            self.browsing = False
+            return self.start(context)
+        return super().execute(context)

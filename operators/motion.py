@@ -8,20 +8,19 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, St
 from bpy.types import Context, Event, Operator
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
-from .in_steps import InSteps
+from .in_steps import FromBrowser, InSteps
 from .polls import OnFace
 
 SUFFIXES = {"FAP": ".fap", "ARKIT": ".csv"}
 
 
-class FACIAL_RETARGET_OT_import_motion(OnFace, InSteps, Operator, ImportHelper):
+class FACIAL_RETARGET_OT_import_motion(OnFace, FromBrowser, ImportHelper, InSteps, Operator):
     """Import FAPs, ARKit weights or optical markers onto the active face; Esc stops"""
 
     bl_idname = "facial_retarget.import_motion"
     bl_label = "Import Motion"
     bl_options = {"REGISTER", "UNDO"}
     doing = "Importing"
-    browsing = False
 
     filename_ext = ".fap"
     filter_glob: StringProperty(default="*.fap;*.csv;*.trc;*.c3d;*.bvh", options={"HIDDEN"})
@@ -66,15 +65,6 @@ class FACIAL_RETARGET_OT_import_motion(OnFace, InSteps, Operator, ImportHelper):
         name="Update Scene Duration", description="The scene's range becomes that of the motion"
     )
 
-    def invoke(self, context: Context, event: Event) -> set[str]:
-        """Ask for the file; Blender then calls `execute`."""
-        self.browsing = True
-        return ImportHelper.invoke(self, context, event)
-
-    def execute(self, context: Context) -> set[str]:
-        """In steps after the file was chosen, at once in a script."""
-        return self.start(context) if self.browsing else InSteps.execute(self, context)
-
     def steps(self, context: Context) -> Any:
         """Read, compute, write."""
         from ..facial_retarget_addon.bridge.motion_import import ImportOptions, import_motion_steps
@@ -100,13 +90,12 @@ class FACIAL_RETARGET_OT_import_motion(OnFace, InSteps, Operator, ImportHelper):
         self.report({"INFO"}, f"{result.count} frames imported, up to scene frame {result.last:.0f}")
 
 
-class FACIAL_RETARGET_OT_export_motion(OnFace, InSteps, Operator, ExportHelper):
+class FACIAL_RETARGET_OT_export_motion(OnFace, FromBrowser, ExportHelper, InSteps, Operator):
     """Export the motion of the active face at the scene's rate; Esc stops"""
 
     bl_idname = "facial_retarget.export_motion"
     bl_label = "Export Motion"
     doing = "Exporting"
-    browsing = False
 
     filter_glob: StringProperty(default="*.fap;*.csv", options={"HIDDEN"})
     format: EnumProperty(
@@ -129,14 +118,9 @@ class FACIAL_RETARGET_OT_export_motion(OnFace, InSteps, Operator, ExportHelper):
         return SUFFIXES[self.format]
 
     def invoke(self, context: Context, event: Event) -> set[str]:
-        """Ask for the file; Blender then calls `execute`."""
-        self.browsing = True
+        """The scene's range is meant, until the artist says otherwise."""
         self.frame_start, self.frame_end = context.scene.frame_start, context.scene.frame_end
-        return ExportHelper.invoke(self, context, event)
-
-    def execute(self, context: Context) -> set[str]:
-        """In steps after the file was chosen, at once in a script."""
-        return self.start(context) if self.browsing else InSteps.execute(self, context)
+        return super().invoke(context, event)
 
     def steps(self, context: Context) -> Any:
         """Read frame after frame, then write the file."""
