@@ -146,13 +146,17 @@ def _shapes(arguments: argparse.Namespace) -> int:
 
 
 def _demo(arguments: argparse.Namespace) -> int:
-    from .demonstration import write_demonstration
+    from .demonstration import write_demonstration, write_fap_demonstration
+    from .files.fap_task import run_fap_task
     from .files.run import run_job
 
     progress = _progress(arguments)
     for job in write_demonstration(arguments.folder, progress):
         _warn(run_job(job, progress)["warnings"])
         print(f"{job} is done: see {job.with_suffix('') / 'report.html'}")
+    task = write_fap_demonstration(arguments.folder)
+    _warn(run_fap_task(task, progress)["warnings"])
+    print(f"{task.motion} plays on the ape: see {task.page}")
     return 0
 
 

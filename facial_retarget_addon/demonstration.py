@@ -1,4 +1,4 @@
-"""The built-in faces as files, with a job for each target."""
+"""The built-in faces as files, with a job for each target, and a take of FAPs for one of them."""
 
 from __future__ import annotations
 
@@ -8,10 +8,14 @@ from .core.arrays import Progress, no_progress
 from .core.errors import RetargetError
 from .core.methods.settings import HierarchicalSettings
 from .demo import DemoFace, actor, performance, targets
+from .demo.fap_take import fap_take
+from .files.fap import write_fap
+from .files.fap_task import FapTask
 from .files.frames import write_frames
 from .files.job import ExampleFiles, FaceFiles, Job, OutputFiles, write_job
 from .files.mesh_file import MeshFile
 from .files.meshes import write_mesh
+from .files.mpeg4_face import FapFaceFiles
 from .files.points import write_points
 
 
@@ -42,6 +46,19 @@ def write_demonstration(folder: Path, progress: Progress = no_progress) -> list[
         jobs.append(path)
     progress(1.0, "Done")
     return jobs
+
+
+def write_fap_demonstration(folder: Path) -> FapTask:
+    """Write the built-in take of FAPs beside the faces of `write_demonstration`; returns what plays it on the ape.
+
+    Raises
+    ------
+    RetargetError : if the system refuses to write.
+    """
+    motion, ape = folder.absolute() / "expressions.fap", folder.absolute() / "ape"
+    write_fap(fap_take(), motion)
+    face = FapFaceFiles(ape / "neutral.obj", ape / "points.json")
+    return FapTask(motion, ape / "expressions.npz", face, page=ape / "expressions.html")
 
 
 def _write_face(face: DemoFace, folder: Path) -> tuple[Path, Path]:

@@ -26,7 +26,7 @@ def fap_table(values: FloatArray, shown: BoolArray | None = None) -> list[dict[s
 def mute_warnings(values: FloatArray, playable: BoolArray) -> list[str]:
     """A sentence that names the FAPs of (F, 68) that act and that a face cannot show; none where it shows all."""
     mute = [f"{fap} {FAPS[fap - 1].name}" for fap in _acting(values) if not playable[fap - 1]]
-    return [f"the face has no points for {len(mute)} FAPs that the motion uses: {', '.join(mute)}"] if mute else []
+    return [f"FAPs that the motion uses and the face has no points for: {', '.join(mute)}"] if mute else []
 
 
 def _acting(values: FloatArray) -> list[int]:

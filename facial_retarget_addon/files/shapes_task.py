@@ -67,7 +67,7 @@ def run_shapes_task(task: ShapesTask, progress: Progress = no_progress) -> dict[
     figures = {"file": task.face.neutral.name, **face.report}
     warnings = figures.pop("warnings")
     if still:
-        warnings = [*warnings, f"the face has no points for {len(still)} shapes: {', '.join(still)}"]
+        warnings = [*warnings, f"shapes that the face has no points for: {', '.join(still)}"]
     seconds = {"read and fit": time.perf_counter() - start}
     size = mesh_file.mesh.size
     moved = {name: float(np.abs(shape - mesh_file.mesh.vertices).max()) / size for name, shape in shapes.items()}

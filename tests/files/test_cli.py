@@ -27,7 +27,7 @@ def test_help_loads_nothing_heavy():
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=REPOSITORY)
     assert done.returncode == 0, done.stderr
-    for word in ("run", "check", "demo", "--quiet"):
+    for word in ("run", "check", "fap", "shapes", "demo", "--quiet"):
         assert word in done.stdout
 
 
@@ -39,7 +39,9 @@ def test_the_module_is_a_command(tmp_path):
     assert done.stderr.count("\n") == 1
 
 
-@pytest.mark.parametrize("arguments", [[], ["sing"], ["run"], ["run", "a", "b"]])
+@pytest.mark.parametrize(
+    "arguments", [[], ["sing"], ["run"], ["run", "a", "b"], ["fap", "a"], ["shapes", "--out", "a"]]
+)
 def test_a_command_line_that_is_wrong(arguments, capsys):
     with pytest.raises(SystemExit) as leaving:
         main(arguments)
@@ -104,6 +106,7 @@ def test_the_demonstration_is_a_set_of_sound_jobs(tmp_path, monkeypatch, capsys,
     monkeypatch.setattr(run, "report_page", lambda *arguments: b"a page")
     monkeypatch.setattr(demonstration, "performance", lambda face: face.frames(performance_table()[25:28]))
     assert main(["demo", str(tmp_path / "new" / "demo"), "--quiet"]) == 0
+    assert (tmp_path / "new" / "demo" / "ape" / "expressions.html").is_file()
     for target in ("ape", "skull"):
         names = {path.name for path in (tmp_path / "new" / "demo" / target).iterdir()}
         assert {"neutral.obj", "points.json", "joy.npz", "frames.npz", "report.json", "report.html"} <= names
