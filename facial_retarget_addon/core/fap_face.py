@@ -10,6 +10,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from .arrays import BoolArray, FloatArray, Progress, no_progress
+from .closest_point import SurfaceFinder
 from .errors import RetargetError
 from .eyeballs import Eyeball
 from .mesh import TriMesh
@@ -27,6 +28,8 @@ HEAD_TURNS = slice(47, 50)
 """Columns of FAPs 48 to 50."""
 EYE_COLUMNS = {"left": (24, 22, 26, 28), "right": (25, 23, 27, 29)}
 """Columns of the FAPs of an eyeball: pitch, yaw, thrust, dilation."""
+FACING = 0.3
+"""The nose's root looks forwards by more than this cosine."""
 PUPIL = 1 / 6
 """Radius of a neutral pupil, as a share of the iris' diameter."""
 
@@ -57,9 +60,10 @@ class FapFace:
         self.fapu: Fapu = measure_fapu(known.names, places, self.axes)
         self._motion = PointChannels(known.names, places, self.axes, self.fapu)
         holds = np.array([FDPS[name].anchored for name in known.names], bool)
-        self.deformer: PointDeformer = fit_deformer(
-            mesh, known, self.axes, self._motion.acting | holds[:, None], variant
-        )
+        acting = self._motion.acting | holds[:, None]
+        root = _nose_root(mesh, known, self.axes)
+        held = np.concatenate([acting, np.ones((len(root), 3), bool)])
+        self.deformer: PointDeformer = fit_deformer(mesh, known.joined(root), self.axes, held, variant)
         self._known = known
         self._read = known.matrix(len(mesh.vertices)).astype(np.float32)
         self._moving = np.flatnonzero(self._motion.acting.ravel())
@@ -181,6 +185,20 @@ class FapFace:
 
 
 _EYE_CHANNELS = (*(f"turn {row}{column}" for row in "xyz" for column in "xyz"), "thrust", "pupil")
+
+
+def _nose_root(mesh: TriMesh, points: FeaturePoints, axes: FloatArray) -> FeaturePoints:
+    """The place between the inner corners of the eyes, which holds the nose's root where no point on it does."""
+    nothing = points.subset([])
+    if {"9.6", "9.7"} & set(points.names) or not {"3.8", "3.11", "9.12"} <= set(points.names):
+        return nothing
+    right, left, bump = points.subset(["3.8", "3.11", "9.12"]).positions(mesh.vertices)
+    middle = 0.5 * (right + left)
+    middle = middle + max((bump - middle) @ axes[2], 0.0) * axes[2]
+    found = SurfaceFinder(mesh).closest(middle[None], axes[2:], FACING)
+    if found.face[0] < 0:
+        return nothing
+    return FeaturePoints(("nose root",), mesh.faces[found.face], found.weights)
 
 
 def fit_fap_face(
