@@ -1,4 +1,4 @@
-"""Writing a bake into Blender: 300 frames of 30 000 vertices as shape keys with their curves."""
+"""Writing into Blender: a bake of 300 frames of 30 000 vertices, and FAPs played into one shape key."""
 
 from __future__ import annotations
 
@@ -11,11 +11,17 @@ import numpy as np
 
 from facial_retarget_addon.bridge.bake import key_name, write_frames
 from facial_retarget_addon.bridge.meshes import new_object
-from facial_retarget_addon.bridge.shape_keys import ensure_key
+from facial_retarget_addon.bridge.shape_keys import ensure_key, write_key
+from facial_retarget_addon.core.fap_face import fit_fap_face
 
+from .faces import skin
 from .timing import Row
 
 FRAMES, VERTICES, ROUNDS = 300, 30_000, 5
+PLAYED = {1_257: 6_000, 30_000: 900, 100_000: 270}
+"""Vertices -> frames a second that FAPs shall play into a shape key."""
+BLOCK = 16
+"""Frames that are computed at once: what fits into the processor's cache."""
 Write = Callable[[bpy.types.Object, np.ndarray], None]
 
 
@@ -29,6 +35,28 @@ def rows() -> Iterator[Row]:
     yield Row(f"bake with curves, Blender {bpy.app.version_string}", ours, "s", 1.0)
     yield Row("the same keys through key.data, without curves", documented, "s")
     yield Row("the bake is faster by", documented / ours, "x")
+
+
+    for vertices, bound in PLAYED.items():
+        yield Row(f"FAPs into a shape key, {vertices} vertices", play(vertices), "frames/s", bound, at_least=True)
+
+
+def play(vertices: int) -> float:
+    """Frames a second from FAPs to a shape key of a face, which takes one frame after the other."""
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    mesh, points = skin(vertices)
+    face = fit_fap_face(mesh, points)
+    thing = new_object("face", mesh.vertices, np.full(len(mesh.faces), 3), mesh.faces.ravel())
+    key = ensure_key(thing, "played")
+    values = np.random.default_rng(1).normal(0, 300, (FRAMES, 68))
+    seconds = []
+    for _ in range(ROUNDS + 1):
+        start = perf_counter()
+        for i in range(0, FRAMES, BLOCK):
+            for positions in face.frames(values[i : i + BLOCK]):
+                write_key(key, positions)
+        seconds.append(perf_counter() - start)
+    return FRAMES / median(seconds[1:])
 
 
 def measure(write: Write) -> float:

@@ -7,6 +7,7 @@ from functools import cache
 import numpy as np
 
 from facial_retarget_addon import demo
+from facial_retarget_addon.core.mesh import TriMesh
 from facial_retarget_addon.core.points import FeaturePoints
 from facial_retarget_addon.core.problem import Face, Problem
 
@@ -28,3 +29,17 @@ def problem() -> Problem:
 
 def _only(points: FeaturePoints, names: tuple[str, ...]) -> FeaturePoints:
     return points.subset(names)
+
+
+@cache
+def skin(vertices: int) -> tuple[TriMesh, FeaturePoints]:
+    """The actor's skin alone, with at least so many vertices and a few percent more at most, and the points on it."""
+    actor = demo.actor(round(1.09 * vertices))
+    mesh, points = actor.face.mesh, actor.face.points
+    on_skin = mesh.components == mesh.components[0]
+    row = np.cumsum(on_skin) - 1
+    held = on_skin[points.vertices].all(axis=1)
+    names = tuple(name for name, holds in zip(points.names, held, strict=True) if holds)
+    faces = mesh.faces[on_skin[mesh.faces].all(axis=1)]
+    places = FeaturePoints(names, row[points.vertices[held]], points.weights[held])
+    return TriMesh(mesh.vertices[on_skin], row[faces]), places

@@ -27,8 +27,8 @@ from .fap_faces import write_shapes
 from .motion_curves import CHANNELS, MOTION, check_free, drive_keys
 from .shape_keys import ensure_key
 
-BLOCK = 64
-"""Frames that are computed between two looks at Esc."""
+BLOCK = 16
+"""Frames that are computed at once: what fits into the processor's cache."""
 WHOLE = 1e-6
 """Scene frames by which the end of a motion may miss a whole one."""
 
