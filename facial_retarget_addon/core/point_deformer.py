@@ -74,7 +74,12 @@ class PointDeformer:
 
 
 def fit_deformer(
-    mesh: TriMesh, points: FeaturePoints, axes: FloatArray, acting: BoolArray, variant: str = "default"
+    mesh: TriMesh,
+    points: FeaturePoints,
+    axes: FloatArray,
+    acting: BoolArray,
+    variant: str = "default",
+    shut_lids: bool = True,
 ) -> PointDeformer:
     """Weights of a surface's points.
 
@@ -85,6 +90,7 @@ def fit_deformer(
     axes : (3, 3) rows left, up, forward of the head.
     acting : (P, 3) whether a point moves or holds the surface along an axis.
     variant : default, or paper for the weights as published and nothing else.
+    shut_lids : whether the points of lids close them, as in acting; otherwise they are points as others are.
 
     Raises
     ------
@@ -96,7 +102,8 @@ def fit_deformer(
         blocks = point_weights(mesh, points, acting, variant)
         arcs = sp.csr_matrix((3 * len(mesh.vertices), 0), dtype=np.float32)
         return PointDeformer(axes, _interleaved(blocks).astype(np.float32), arcs, eyeballs, (), (), ())
-    lids = [lid for lid in find_lids(mesh, points, eyeballs) if acting[points.index([lid.middle])[0]].any()]
+    margins = find_lids(mesh, points, eyeballs) if shut_lids else []
+    lids = [lid for lid in margins if acting[points.index([lid.middle])[0]].any()]
     joined = points.joined(_guides(lids))
     owner = points.index([lid.middle for lid in lids for _ in lid.vertices])
     acts = np.concatenate([acting, acting[owner]])

@@ -163,6 +163,14 @@ def test_points_on_another_component(problem, frames):
     assert "source: points pupil lie on another part" in one(faults(changed, None, SETTINGS))
 
 
+def test_points_of_eyes_tongue_and_teeth_may_lie_on_parts_of_their_own(problem: Problem) -> None:
+    face = problem.source
+    for name in ("3.5", "6.1", "9.10"):
+        own = FeaturePoints((name,), np.full((1, 3), len(face.mesh.vertices)), np.array([[1.0, 0, 0]]))
+        changed = replace(problem, source=Face(with_eye(face.mesh), face.points.joined(own)))
+        assert not [fault for fault in faults(changed, None, SETTINGS) if "another part" in fault]
+
+
 def test_points_in_one_place(problem, frames):
     held = problem.target.points.vertices[4, 0]
     twin = FeaturePoints(("twin",), np.array([[0, held, 1]]), np.array([[0.0, 1.0, 0.0]]))
