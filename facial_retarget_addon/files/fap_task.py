@@ -142,7 +142,8 @@ def _played(task: FapTask, progress: Progress) -> _Result:
 
     def write(aside: Aside) -> None:
         frames = _PlayedFrames(face, values, task.turn_head, progress_part(progress, 0.4, 0.9))
-        add_frames(aside, frames, task.out, (mesh_file.counts, mesh_file.corners))
+        corners = mesh_file.counts, mesh_file.corners
+        add_frames(aside, frames, task.out, corners, stream.fps / task.chosen.step)
 
     return _Result(report, write, lambda: fap_page(report, face, _PlayedFrames(face, values, task.turn_head), rows))
 

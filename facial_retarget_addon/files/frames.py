@@ -23,8 +23,12 @@ _PC2 = struct.Struct("<12siiffi")
 _PC2_SIGNATURE = b"POINTCACHE2\0"
 _MDD = struct.Struct(">ii")
 """Frames, vertices; then the frames' times."""
-MDD_RATE = 24.0
-"""Frames per second that a written MDD file's times mean."""
+FPS = 24.0
+"""Frames a second of frames of which nobody says otherwise."""
+
+
+Corners = tuple[IntArray, IntArray] | None
+"""Corners of each polygon (P,), and their vertices (C,)."""
 
 
 class FrameBlocks(Protocol):
@@ -62,26 +66,33 @@ def read_frames(path: Path, vertex_count: int) -> FloatArray:
     return frames
 
 
-def write_frames(frames: FrameBlocks, path: Path, corners: tuple[IntArray, IntArray] | None = None) -> None:
+def write_frames(frames: FrameBlocks, path: Path, corners: Corners = None, fps: float = FPS) -> None:
     """Write frames (F, V, 3), whole or not at all.
 
     Parameters
     ----------
     path : .npz, .pc2, .mdd, or no suffix for a folder of OBJ files, which replaces one that holds nothing else.
-    corners : corners of each polygon (P,) and their vertices (C,), for the OBJ files' faces.
+    corners : for the OBJ files' faces.
+    fps : frames a second, for the times in an MDD file.
 
     Raises
     ------
     RetargetError : for another suffix, or if the system refuses, such as on a full disk.
     """
     with written_whole() as aside:
-        add_frames(aside, frames, path, corners)
+        add_frames(aside, frames, path, corners, fps)
 
 
-def add_frames(aside: Aside, frames: FrameBlocks, path: Path, corners: tuple[IntArray, IntArray] | None = None) -> None:
+def add_frames(
+    aside: Aside,
+    frames: FrameBlocks,
+    path: Path,
+    corners: Corners = None,
+    fps: float = FPS,
+) -> None:
     """Write frames among outputs that appear together; the rest as in `write_frames`."""
     writer = _format(path)[1]
-    writer(aside.place(path, replaces=".obj"), frames, corners)
+    writer(aside.place(path, replaces=".obj"), frames, corners, fps)
 
 
 def check_frames_place(path: Path) -> None:
@@ -98,7 +109,7 @@ def _read_npz(path: Path) -> FloatArray:
         return np.asanyarray(arrays["frames"], np.float32)
 
 
-def _write_npz(path: Path, frames: FrameBlocks, corners: tuple[IntArray, IntArray] | None) -> None:
+def _write_npz(path: Path, frames: FrameBlocks, corners: Corners, fps: float) -> None:
     with open(path, "xb") as file:
         write_blocks(file, "frames", frames.shape, _blocks(frames, "<f4"))
 
@@ -111,7 +122,7 @@ def _read_pc2(path: Path) -> FloatArray:
     return _mapped(path, "<f4", _PC2.size, samples, vertices)
 
 
-def _write_pc2(path: Path, frames: FrameBlocks, corners: tuple[IntArray, IntArray] | None) -> None:
+def _write_pc2(path: Path, frames: FrameBlocks, corners: Corners, fps: float) -> None:
     head = _PC2.pack(_PC2_SIGNATURE, 1, frames.shape[1], 1.0, 1.0, len(frames))
     _write_raw(path, head, frames, "<f4")
 
@@ -121,8 +132,8 @@ def _read_mdd(path: Path) -> FloatArray:
     return np.array(_mapped(path, ">f4", _MDD.size + 4 * max(samples, 0), samples, vertices), np.float32)
 
 
-def _write_mdd(path: Path, frames: FrameBlocks, corners: tuple[IntArray, IntArray] | None) -> None:
-    times = np.arange(len(frames)) / MDD_RATE
+def _write_mdd(path: Path, frames: FrameBlocks, corners: Corners, fps: float) -> None:
+    times = np.arange(len(frames)) / fps
     _write_raw(path, _MDD.pack(len(frames), frames.shape[1]) + times.astype(">f4").tobytes(), frames, ">f4")
 
 
@@ -193,7 +204,7 @@ def _natural(path: Path) -> list[tuple[int, str]]:
     return [(int(part), "") if part.isdecimal() else (-1, part) for part in re.split(r"(\d+)", path.name)]
 
 
-def _write_folder(path: Path, frames: FrameBlocks, corners: tuple[IntArray, IntArray] | None) -> None:
+def _write_folder(path: Path, frames: FrameBlocks, corners: Corners, fps: float) -> None:
     path.mkdir()
     words = [b"%d" % v for v in (corners[1] + 1).tolist()] if corners else []
     every = (frame for block in _blocks(frames, "<f4") for frame in block)
@@ -205,7 +216,7 @@ def _write_folder(path: Path, frames: FrameBlocks, corners: tuple[IntArray, IntA
 
 
 _Reader = Callable[[Path], FloatArray]
-_Writer = Callable[[Path, FrameBlocks, tuple[IntArray, IntArray] | None], None]
+_Writer = Callable[[Path, FrameBlocks, Corners, float], None]
 _FORMATS: dict[str, tuple[_Reader, _Writer]] = {
     ".npz": (_read_npz, _write_npz),
     ".pc2": (_read_pc2, _write_pc2),

@@ -53,6 +53,8 @@ def test_the_bytes_of_a_pc2_file(tmp_path):
 def test_the_bytes_of_an_mdd_file(tmp_path):
     write_frames(np.array([[[1, 2, 3]], [[4, 5, 6]]]), tmp_path / "f.mdd")
     assert (tmp_path / "f.mdd").read_bytes() == struct.pack(">ii2f6f", 2, 1, 0, 1 / 24, *range(1, 7))
+    write_frames(np.zeros((2, 1, 3)), tmp_path / "f.mdd", fps=50)
+    assert struct.unpack(">2f", (tmp_path / "f.mdd").read_bytes()[8:16]) == pytest.approx((0, 0.02))
 
 
 def test_the_same_frames_give_the_same_bytes(tmp_path):
