@@ -4,14 +4,16 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 SCENARIOS = Path(__file__).parent / "scenarios"
 
 
+@pytest.mark.parametrize("scenario", ["retargeting", "feature_point_method"])
 def test_blender_and_command_line_give_the_same_frames(
-    blender: Callable[..., str], command_line: Callable[..., str], tmp_path: Path
+    scenario: str, blender: Callable[..., str], command_line: Callable[..., str], tmp_path: Path
 ) -> None:
-    blender(SCENARIOS / "retargeting.py", tmp_path)
+    blender(SCENARIOS / f"{scenario}.py", tmp_path)
     command_line("run", tmp_path / "job.toml")
     by_command_line = np.load(tmp_path / "job_target_frames.npz")["frames"]
     by_blender = np.load(tmp_path / "blender.npz")["frames"]
