@@ -60,7 +60,9 @@ def _add_fap_arguments(fap: argparse.ArgumentParser) -> None:
     fap.add_argument("motion", type=Path, help=".fap, ARKit .csv, markers (.trc .c3d .bvh .csv), or a face's frames")
     fap.add_argument("--out", type=Path, required=True, help="frames (.npz .pc2 .mdd or a folder), or .fap")
     _add_face_arguments(fap, required=False)
-    fap.add_argument("--head", choices=("leave", "turn"), default="leave", help="whether FAPs 48 to 50 turn the head")
+    fap.add_argument(
+        "--head", choices=("leave", "turn"), default="leave", help="whether the head turns by FAPs 48 to 50"
+    )
     fap.add_argument("--missing", choices=("hold", "zero"), default="hold", help="what FAPs do that a frame leaves out")
     fap.add_argument("--gaps", choices=("fill", "refuse"), default="fill", help="what becomes of hidden markers")
     fap.add_argument("--map", type=Path, help="a marker map, where the markers' names do not say where they sit")

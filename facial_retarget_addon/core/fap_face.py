@@ -43,6 +43,7 @@ class FapFace:
     Attributes
     ----------
     mesh, points : what was fitted.
+    known : those of the points that have MPEG-4 names.
     axes : (3, 3) rows left, up, forward of the head.
     fapu : the face's units.
     deformer : the surface's weights.
@@ -64,7 +65,7 @@ class FapFace:
         root = _nose_root(mesh, known, self.axes)
         held = np.concatenate([acting, np.ones((len(root), 3), bool)])
         self.deformer: PointDeformer = fit_deformer(mesh, known.joined(root), self.axes, held, variant)
-        self._known = known
+        self.known = known
         self._read = known.matrix(len(mesh.vertices)).astype(np.float32)
         self._moving = np.flatnonzero(self._motion.acting.ravel())
         self._eyes = [eye for eye in self.deformer.eyeballs.values() if len(eye.vertices)]
@@ -101,8 +102,11 @@ class FapFace:
         frames = np.asarray(frames)
         if frames.ndim != 3 or frames.shape[1:] != self._neutral.shape:
             raise RetargetError(f"frames have shape {frames.shape}, expected (F, {len(self._neutral)}, 3)")
-        there = self._known.positions(frames)
-        return self._motion.values(there - self._known.positions(self.mesh.vertices))
+        return self.measure_points(self.known.positions(frames))
+
+    def measure_points(self, places: FloatArray) -> FloatArray:
+        """FAPs (F, 68) of places (F, K, 3) of the known points; the rest as `measure`."""
+        return self._motion.values(places - self.known.positions(self.mesh.vertices))
 
     def channel_values(self, values: FloatArray) -> FloatArray:
         """Values (F, C) of the channels for FAPs (F, 68); lengths in the object's units."""
@@ -121,7 +125,7 @@ class FapFace:
     @cached_property
     def head_pivot(self) -> FloatArray:
         """(3,) what the head turns about: FDP 7.1, or where it lies on the average face."""
-        return place_missing(self._known.names, self._known.positions(self.mesh.vertices), ["7.1"])["7.1"]
+        return place_missing(self.known.names, self.known.positions(self.mesh.vertices), ["7.1"])["7.1"]
 
     @cached_property
     def report(self) -> Mapping[str, Any]:
@@ -129,7 +133,7 @@ class FapFace:
         still = [fap.name for fap in FAPS[2:] if not self.playable[fap.number - 1]]
         return {
             "variant": self._variant,
-            "points": len(self._known),
+            "points": len(self.known),
             "fapu": {unit: self.fapu.length(unit) for unit in ("IRISD", "ES", "ENS", "MNS", "MW")},
             "fapu_taken": self.fapu.taken,
             "eyeballs": [eye.side for eye in self._eyes],
@@ -141,13 +145,13 @@ class FapFace:
     def _playable(self) -> BoolArray:
         playable: BoolArray = self._motion.measurable.copy()
         playable[HEAD_TURNS] = True
-        playable[46] = {"6.2", "6.3", "6.4"} <= set(self._known.names)
+        playable[46] = {"6.2", "6.3", "6.4"} <= set(self.known.names)
         for eye in self._eyes:
             playable[list(EYE_COLUMNS[eye.side])] = True
         return playable
 
     def _names(self) -> tuple[str, ...]:
-        names = [f"{name} {axis}" for name in self._known.names for axis in "xyz"]
+        names = [f"{name} {axis}" for name in self.known.names for axis in "xyz"]
         eyes = [f"eye {eye.side} {what}" for eye in self._eyes for what in _EYE_CHANNELS]
         return (*(names[k] for k in self._moving), *(f"{lid.middle} arc" for lid in self.deformer.lids), *eyes)
 

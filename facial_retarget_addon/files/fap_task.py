@@ -8,9 +8,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from ..core.arrays import FloatArray, Progress, no_progress, progress_part
 from ..core.errors import RetargetError
 from ..core.fap_face import HEAD_TURNS, FapFace
+from ..core.moving_head import measure_moving_head
 from ..core.mpeg4.conversions import low_level, stream_of_values
 from .fap import add_fap
 from .fap_page import fap_page
@@ -37,7 +40,8 @@ class FapTask:
     missing : what FAPs do in frames that do not use them, see `low_level`.
     gaps : what becomes of hidden markers, see `fill_gaps`.
     marker_map : where the markers sit, if their names do not say.
-    turn_head : whether FAPs 48 to 50 turn the head.
+    turn_head : whether FAPs 48 to 50 turn the head; where frames are measured, whether its motion is taken out into
+        them.
     fps : frames a second of what does not tell: frames, tables without times.
     chosen : the frames that are wanted.
     report, page : where figures (JSON) and pictures (HTML) go.
@@ -156,8 +160,15 @@ def _measured(task: FapTask, progress: Progress) -> _Result:
     every = read_frames(task.motion, len(mesh_file.mesh.vertices))
     rows = task.chosen.rows(len(every))
     frames = every[rows]
-    stream = stream_of_values(task.motion.stem, task.fps / task.chosen.step, face.measure(frames), face.measurable)
     facts = {"format": "frames of a face", "frames": len(every), "fps": task.fps}
+    measured = face.measurable.copy()
+    if task.turn_head:
+        values, motion = measure_moving_head(face, frames)
+        measured[HEAD_TURNS] = True
+        facts["head_residual"] = float(np.sqrt((motion.residual**2).mean()))
+    else:
+        values = face.measure(frames)
+    stream = stream_of_values(task.motion.stem, task.fps / task.chosen.step, values, measured)
     report = _report(task, facts, fap_table(stream.values), [], face)
     return _Result(report, lambda aside: add_fap(aside, stream, task.out), lambda: fap_page(report, face, frames, rows))
 

@@ -83,13 +83,7 @@ def write_frames(frames: FrameBlocks, path: Path, corners: Corners = None, fps: 
         add_frames(aside, frames, path, corners, fps)
 
 
-def add_frames(
-    aside: Aside,
-    frames: FrameBlocks,
-    path: Path,
-    corners: Corners = None,
-    fps: float = FPS,
-) -> None:
+def add_frames(aside: Aside, frames: FrameBlocks, path: Path, corners: Corners = None, fps: float = FPS) -> None:
     """Write frames among outputs that appear together; the rest as in `write_frames`."""
     writer = _format(path)[1]
     writer(aside.place(path, replaces=".obj"), frames, corners, fps)

@@ -93,6 +93,16 @@ def test_a_face_gives_back_the_take_that_it_played(face: FaceOnDisk, motion: Pat
     assert again.used[0].sum() > 40
 
 
+def test_a_face_whose_head_turned_gives_back_its_turn_too(face: FaceOnDisk, motion: Path, tmp_path: Path) -> None:
+    assert fap(motion, tmp_path / "out.npz", *face.arguments, "--head", "turn") == 0
+    measure = (tmp_path / "out.npz", tmp_path / "again.fap", *face.arguments, "--fps", 25, "--head", "turn")
+    assert fap(*measure, "--report", tmp_path / "r.json") == 0
+    again = read_fap(tmp_path / "again.fap")
+    np.testing.assert_allclose(again.values, take().values, atol=1)
+    assert again.values[:, 48].max() > 29000
+    assert json.loads((tmp_path / "r.json").read_text())["motion"]["head_residual"] < 1e-6
+
+
 def test_a_take_is_written_back_equal(motion: Path, tmp_path: Path) -> None:
     assert fap(motion, tmp_path / "again.fap") == 0
     assert (tmp_path / "again.fap").read_bytes() == motion.read_bytes()
