@@ -108,8 +108,13 @@ class FACIAL_RETARGET_OT_export_motion(OnFace, FromBrowser, ExportHelper, InStep
     )
     frame_start: IntProperty(name="First Frame", default=1)
     frame_end: IntProperty(name="Last Frame", default=250)
-    measure: BoolProperty(
-        name="Measure the Mesh", description="Read FAPs off the mesh's feature points even if there are controls"
+    source: EnumProperty(
+        name="FAPs From",
+        items=[
+            ("AUTO", "Controls or Mesh", "The FAP controls if the face has them, its feature points otherwise"),
+            ("MESH", "Mesh", "The feature points as the mesh moves, even if there are controls"),
+            ("MOVING", "Mesh with a Moving Head", "The same where the head moves in the mesh itself, as in a cache"),
+        ],
     )
 
     @property
@@ -127,7 +132,7 @@ class FACIAL_RETARGET_OT_export_motion(OnFace, FromBrowser, ExportHelper, InStep
         from ..facial_retarget_addon.bridge.motion_export import export_motion_steps
 
         frames = range(self.frame_start, self.frame_end + 1)
-        return export_motion_steps(context, context.active_object, Path(self.filepath), frames, self.measure)
+        return export_motion_steps(context, context.active_object, Path(self.filepath), frames, self.source)
 
     def finish(self, result: Any) -> None:
         """Pass on the warnings."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,7 +10,7 @@ from bpy.types import Depsgraph, Object
 
 from ..core.arrays import BoolArray, FloatArray, Progress
 from ..core.expression_sets import expression_shapes
-from ..core.fap_face import FapFace
+from ..core.fap_face import HEAD_TURNS, FapFace
 from ..core.mpeg4.faps import FAPS
 from ..fap_controls import CONTROLS, DRIVES, REACH, Control, Drive
 from .background import Steps, in_thread, part
@@ -65,7 +66,8 @@ def shape_steps(face: FapFace) -> Steps[Shapes]:
 
 
 def write_controls(thing: Object, shapes: Shapes) -> None:
-    """Set up all controls of a face. Properties keep the values that they have."""
+    """Set up all controls of a face. Properties keep the values that they have; keys that it cannot show now go."""
+    _remove_driven(thing, [drive.key for drive in DRIVES if drive.key not in shapes])
     for control in CONTROLS:
         _write_property(thing, control)
     write_shapes(thing, {key: shape.positions for key, shape in shapes.items()})
@@ -80,8 +82,9 @@ def has_controls(thing: Object) -> bool:
 
 
 def shown_faps(thing: Object) -> BoolArray:
-    """(68,) FAPs that the face's controls show."""
+    """(68,) FAPs that the face's controls show; the head's turns are always among them."""
     shown = np.zeros(len(FAPS), bool)
+    shown[HEAD_TURNS] = True
     for control in CONTROLS:
         shown[control.fap.number - 1] = find_key(thing, control.key) is not None
     return shown
@@ -97,10 +100,7 @@ def read_controls(thing: Object, depsgraph: Depsgraph) -> FloatArray:
 
 def remove_controls(thing: Object) -> None:
     """Take the controls off again: shape keys, drivers, properties and their curves."""
-    for drive in DRIVES:
-        if find_key(thing, drive.key) is not None:
-            thing.data.shape_keys.driver_remove(value_path(drive.key))
-    remove_keys(thing, [drive.key for drive in DRIVES])
+    _remove_driven(thing, [drive.key for drive in DRIVES])
     bag = find_curves(thing)
     if bag is not None:
         remove_curves(bag, {control.path for control in CONTROLS})
@@ -108,6 +108,14 @@ def remove_controls(thing: Object) -> None:
         if control.name in thing:
             del thing[control.name]
     thing.data.update()
+
+
+def _remove_driven(thing: Object, names: Iterable[str]) -> None:
+    """Remove shape keys and what drives them, where they are there."""
+    there = [name for name in names if find_key(thing, name) is not None]
+    for name in there:
+        thing.data.shape_keys.driver_remove(value_path(name))
+    remove_keys(thing, there)
 
 
 def _shut_at(face: FapFace, drive: Drive) -> float | None:

@@ -10,20 +10,23 @@ from mathutils import Matrix, Vector
 from ..core.arrays import FloatArray
 from ..core.fap_face import FapFace
 from ..core.mpeg4.fapu import ANGLE
-from ..core.mpeg4.sets import HEAD_TURNS
 from .curves import ensure_curves, find_curves, remove_curves, write_curve
 from .meshes import from_face_space, stretch
 
 ORDER = "ZXY"
 """Blender's name for rolling first, then pitching, then yawing: R = Ry Rx Rz."""
 PATH = "rotation_euler"
-HEAD = slice(HEAD_TURNS[0] - 1, HEAD_TURNS[-1])
-"""Columns of FAPs 48 to 50."""
+
+
+def find_head(thing: Object) -> Object | None:
+    """A face's empty, unless the artist has deleted it: the face alone keeps it then."""
+    empty = thing.facial_retarget.head
+    return empty if empty is not None and empty.users_collection else None
 
 
 def write_head(thing: Object, face: FapFace, frames: FloatArray, values: FloatArray, group: str) -> Object:
     """Turn a face's empty by FAPs 48 to 50 (F, 3) at scene frames (F,); it is made and placed if there is none."""
-    empty = thing.facial_retarget.head or _place(thing, face)
+    empty = find_head(thing) or _place(thing, face)
     bag = ensure_curves(empty, f"{empty.name} motion")
     remove_curves(bag, {PATH})
     for index, angles in enumerate(values.T * ANGLE):
@@ -33,7 +36,7 @@ def write_head(thing: Object, face: FapFace, frames: FloatArray, values: FloatAr
 
 def clear_head(thing: Object) -> None:
     """Take the motion off a face's empty."""
-    empty = thing.facial_retarget.head
+    empty = find_head(thing)
     bag = find_curves(empty) if empty is not None else None
     if bag is not None:
         remove_curves(bag, {PATH})
@@ -42,7 +45,7 @@ def clear_head(thing: Object) -> None:
 
 def read_head(thing: Object, depsgraph: Depsgraph) -> FloatArray:
     """(3,) FAPs 48 to 50 that a face's empty shows now; 0 without one."""
-    empty = thing.facial_retarget.head
+    empty = find_head(thing)
     return np.zeros(3) if empty is None else np.array(empty.evaluated_get(depsgraph).rotation_euler) / ANGLE
 
 

@@ -9,6 +9,8 @@ import numpy as np
 from bpy.types import Context, Object
 
 from ..core.errors import RetargetError
+from ..core.fap_face import HEAD_TURNS
+from ..core.moving_head import measure_moving_head
 from ..core.mpeg4.arkit import ARKIT_NAMES
 from ..core.mpeg4.arkit_take import ArkitTake
 from ..core.mpeg4.conversions import stream_of_values
@@ -19,7 +21,7 @@ from .arkit_keys import find_arkit_keys
 from .background import Steps, part
 from .controls import has_controls, read_controls, shown_faps
 from .fap_faces import fit_steps
-from .head_empty import HEAD, read_head
+from .head_empty import find_head, read_head
 from .performance import each_frame, read_frame, scene_rate
 
 
@@ -32,7 +34,7 @@ class Exported:
     warnings: list[str]
 
 
-def export_motion_steps(context: Context, thing: Object, path: Path, frames: range, measure: bool) -> Steps[Exported]:
+def export_motion_steps(context: Context, thing: Object, path: Path, frames: range, source: str) -> Steps[Exported]:
     """Write a face's motion at the scene's rate: `.fap`, or `.csv` with ARKit's weights as Live Link Face writes them.
 
     FAPs come from the face's controls, or off its mesh where it has none; weights from the shape keys that bear
@@ -41,7 +43,8 @@ def export_motion_steps(context: Context, thing: Object, path: Path, frames: ran
     Parameters
     ----------
     frames : scene frames.
-    measure : whether FAPs are read off the mesh even if there are controls.
+    source : of FAPs: AUTO as above; MESH measures even if there are controls; MOVING too, and takes the head's motion,
+        which lies in the vertices, for FAPs 48 to 50. Otherwise these come from the face's empty.
 
     Raises
     ------
@@ -49,32 +52,39 @@ def export_motion_steps(context: Context, thing: Object, path: Path, frames: ran
     """
     match path.suffix.lower():
         case ".fap":
-            return (yield from _faps_steps(context, thing, path, frames, measure or not has_controls(thing)))
+            return (yield from _faps_steps(context, thing, path, frames, source))
         case ".csv":
             return (yield from _weights_steps(context, thing, path, frames))
         case suffix:
             raise RetargetError(f"motion {path} is a {suffix or 'file without a suffix'}, expected .fap or .csv")
 
 
-def _faps_steps(context: Context, thing: Object, path: Path, frames: range, measure: bool) -> Steps[Exported]:
-    face = (yield from part(fit_steps(thing), 0.0, 0.3)) if measure else None
+def _faps_steps(context: Context, thing: Object, path: Path, frames: range, source: str) -> Steps[Exported]:
     values = np.zeros((len(frames), len(FAPS)))
-    used = shown_faps(thing) if face is None else face.measurable.copy()
+    controlled = source == "AUTO" and has_controls(thing)
+    if controlled:
+        used = shown_faps(thing)
+    else:
+        face = yield from part(fit_steps(thing), 0.0, 0.3)
+        used = face.measurable.copy()
 
     def read(i: int, frame: int) -> None:
-        if face is None:
+        if controlled:
             context.scene.frame_set(frame)
             values[i] = read_controls(thing, context.evaluated_depsgraph_get())
+        elif source == "MOVING":
+            values[i] = measure_moving_head(face, read_frame(context, thing, frame)[None])[0][0]
         else:
             values[i] = face.measure(read_frame(context, thing, frame)[None])[0]
-        values[i, HEAD] = read_head(thing, context.evaluated_depsgraph_get())
+        if source != "MOVING":
+            values[i, HEAD_TURNS] = read_head(thing, context.evaluated_depsgraph_get())
 
     yield from part(each_frame(context.scene, frames, read), 0.3, 0.6)
     used |= values.any(axis=0)
-    used[HEAD] = thing.facial_retarget.head is not None
+    used[HEAD_TURNS] = source == "MOVING" or find_head(thing) is not None
     yield 0.9, "Writing"
     write_fap(stream_of_values(path.stem, scene_rate(context.scene), values, used), path)
-    return Exported(len(frames), "its FAP controls" if face is None else "its mesh", [])
+    return Exported(len(frames), "its FAP controls" if controlled else "its mesh", [])
 
 
 def _weights_steps(context: Context, thing: Object, path: Path, frames: range) -> Steps[Exported]:

@@ -8,18 +8,19 @@ from pathlib import Path
 import numpy as np
 from bpy.types import Context, Object
 
-from ..core.arrays import BoolArray, Progress
+from ..core.arrays import Progress
+from ..core.fap_face import HEAD_TURNS
 from ..core.mpeg4.arkit import ARKIT_NAMES
 from ..core.mpeg4.arkit_take import ArkitTake
 from ..core.mpeg4.conversions import low_level
-from ..core.mpeg4.faps import FAPS
+from ..files.fap_report import mute_warnings
 from ..files.motion import read_motion
 from ..files.motion_stream import stream_of_motion
 from .arkit_keys import find_arkit_keys
 from .background import Steps, in_thread, part
 from .controls import has_controls, shown_faps
 from .fap_faces import fit_steps
-from .head_empty import HEAD, write_head
+from .head_empty import write_head
 from .motion_curves import MOTION, clear_motion
 from .motion_ways import Take, arkit_steps, controls_steps, frames_steps, points_steps
 from .performance import scene_rate
@@ -88,9 +89,9 @@ def import_motion_steps(context: Context, thing: Object, options: ImportOptions)
     write()
     warnings = list(take.warnings)
     if not named:
-        warnings += _unshown(shown_faps(thing) if face is None else face.playable, take)
+        warnings += mute_warnings(take.values, shown_faps(thing) if face is None else face.playable)
     if options.head == "EMPTY":
-        empty = write_head(thing, face, take.frames, take.values[:, HEAD], MOTION)
+        empty = write_head(thing, face, take.frames, take.values[:, HEAD_TURNS], MOTION)
         if "7.1" not in thing.facial_retarget.points:
             warnings.append(f"{empty.name!r} turns about where the average face has its point 7.1: this face has none")
     if options.set_rate:
@@ -119,11 +120,3 @@ def _needs_face(thing: Object, take: Take) -> bool:
     if isinstance(take.motion, ArkitTake):
         return len(find_arkit_keys(thing)) < len(ARKIT_NAMES) and len(thing.facial_retarget.points) > 0
     return not has_controls(thing)
-
-
-def _unshown(shown: BoolArray, take: Take) -> list[str]:
-    """A sentence about the motion that a face cannot show."""
-    lost = take.values.any(axis=0) & ~shown
-    lost[HEAD] = False
-    names = ", ".join(FAPS[column].name for column in np.flatnonzero(lost))
-    return [f"this face has no points for {lost.sum()} FAPs of the motion: {names}"] if names else []

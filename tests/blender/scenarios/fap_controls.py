@@ -93,9 +93,18 @@ bpy.context.scene.frame_set(4)
 np.testing.assert_allclose(shown(actor), expected({3: 307.2}), rtol=0, atol=TOLERANCE * size)
 check({19: 500, 20: 800, 23: 40000, 26: -20000})
 
-# Removed again, nothing is left but the artist's own.
+# Made anew, it shows what its points say now.
 enable()
 bpy.context.view_layer.objects.active = actor
+points = actor.facial_retarget.points
+points.remove(points.find("9.3"))
+bpy.ops.facial_retarget.make_controls()
+assert actor.data.shape_keys.key_blocks.find("FAP 63 raise_nose") == -1
+assert len(actor.data.shape_keys.animation_data.drivers) == len(actor.data.shape_keys.key_blocks) - 2
+face = fitted(actor)
+check({41: 700, 63: 500, 12: 300})
+
+# Removed again, nothing is left but the artist's own.
 bpy.ops.facial_retarget.remove_controls()
 keys = actor.data.shape_keys
 assert [key.name for key in keys.key_blocks] == ["Basis", "wart"]

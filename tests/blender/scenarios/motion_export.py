@@ -57,12 +57,19 @@ animation.nla_tracks.remove(animation.nla_tracks[0])
 face = fitted(actor)
 bpy.ops.facial_retarget.remove_controls()
 import_motion(**take, way="FRAMES")
-for options in ({}, {"measure": True}):
+for options in ({}, {"source": "MESH"}):
     measured = conversions.low_level(exported("measured.fap", **options))
     shown = face.measurable
     assert shown.sum() > 40
     np.testing.assert_allclose(measured[:, shown], values[:, shown], atol=1.0)
     assert not measured[:, ~shown & (np.arange(68) < 47)].any()
+
+# Where the head moves in the vertices, that is found and taken out.
+turning = face.frames(values, turn_head=True)
+part("bridge.bake").write_frames(actor, part("bridge.meshes").from_face_space(actor, turning), START)
+measured = conversions.low_level(exported("moving.fap", source="MOVING"))
+shown[head] = True
+np.testing.assert_allclose(measured[:, shown], values[:, shown], atol=2.0)
 
 # ARKit's weights, off the keys that bear the names, however they are moved.
 weights = rng.uniform(0, 1, (COUNT, 52))
@@ -103,6 +110,6 @@ with refused("no folder"):
     exported("no/folder/motion.csv")
 actor.hide_set(True)
 with refused("'actor'", "hidden"):
-    exported("hidden.fap", measure=True)
+    exported("hidden.fap", source="MESH")
 left = {path.name for path in folder.glob("*.fap")} | {path.name for path in folder.glob("*.txt")}
-assert left == {"take.fap", "back.fap", "part.fap", "later.fap", "measured.fap"}, left
+assert left == {"take.fap", "back.fap", "part.fap", "later.fap", "measured.fap", "moving.fap"}, left

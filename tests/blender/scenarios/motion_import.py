@@ -219,6 +219,46 @@ import_motion(filepath=str(folder / "take.csv"), frame_start=START, way="POINTS"
 plays(actor, conversions.low_level(conversions.faps_of_arkit(take)), 1.0)
 own_is_there()
 
+# An empty that the artist has deleted is made again.
+bpy.data.objects.remove(empty)
+import_motion(filepath=paths[0], frame_start=START, way="POINTS", head="EMPTY")
+for collection in actor.facial_retarget.head.users_collection:
+    collection.objects.unlink(actor.facial_retarget.head)
+import_motion(filepath=paths[0], frame_start=START, way="POINTS", head="EMPTY")
+assert len(actor.facial_retarget.head.users_collection) == 1
+assert len(curve_paths(actor.facial_retarget.head)) == 3
+
+# Markers on the actor's own points, whose head turns and which are hidden at times.
+actor.matrix_world = Matrix.Identity(4)
+context.view_layer.update()
+face = fitted(actor)
+acted = first.copy()
+acted[0] = 0
+places = face.known.positions(face.frames(acted, turn_head=True))
+places[3, face.known.names.index("8.3")] = np.nan
+anchored = [name for name in face.known.names if part("core.mpeg4.fdps").FDPS[name].anchored]
+header = ["time", *(f"m{name}_{axis}" for name in face.known.names for axis in "xyz")]
+rows = [[i / FPS, *("" if np.isnan(x) else repr(x) for x in row.ravel().tolist())] for i, row in enumerate(places)]
+lines = [",".join(map(str, row)) for row in (header, *rows)]
+(folder / "markers.csv").write_text("\n".join(lines) + "\n")
+marker_map = part("core.marker_assignment").MarkerMap(
+    {f"m{name}": name for name in face.known.names}, tuple(f"m{name}" for name in anchored)
+)
+part("files.marker_map").write_marker_map(marker_map, folder / "map.json")
+markers = {"filepath": str(folder / "markers.csv"), "marker_map": str(folder / "map.json"), "frame_start": START}
+with refused("'m8.3'", "hidden"):
+    import_motion(**markers, gaps="refuse")
+bpy.ops.facial_retarget.remove_controls()
+import_motion(**markers, head="EMPTY")
+for i in (0, 2, 4, COUNT - 1):
+    scene.frame_set(START + i)
+    for control in fap_controls.CONTROLS:
+        column = control.fap.number - 1
+        if face.measurable[column]:
+            wanted = max(acted[i, column], 0) if control.fap.one_way else acted[i, column]
+            assert abs(actor[control.name] - wanted) < 2, (i, control.name, actor[control.name], wanted)
+    np.testing.assert_allclose(actor.facial_retarget.head.rotation_euler, acted[i, 47:50] * 1e-5, atol=2e-4)
+
 # What cannot be imported is said, and changes nothing.
 with refused("missing.fap"):
     import_motion(filepath=str(folder / "missing.fap"))
@@ -231,6 +271,7 @@ with refused("missing.json"):
     import_motion(filepath=str(folder / "take.csv"), marker_map=str(folder / "missing.json"))
 wild = second.copy()
 wild[1, 2] = 20_000
+bpy.ops.facial_retarget.make_controls()
 with refused("FAP 3", "20000", "10240"):
     import_motion(filepath=write_fap("wild", wild))
 import_motion(filepath=write_fap("wild", wild), way="POINTS", frame_start=START)
