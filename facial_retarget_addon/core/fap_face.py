@@ -30,6 +30,9 @@ EYE_COLUMNS = {"left": (24, 22, 26, 28), "right": (25, 23, 27, 29)}
 """Columns of the FAPs of an eyeball: pitch, yaw, thrust, dilation."""
 FACING = 0.3
 """The nose's root looks forwards by more than this cosine."""
+ON_EDGE = 1e-6
+"""Weights of the nose root's place below this are none."""
+VARIANTS = ("default", "paper")
 PUPIL = 1 / 6
 """Radius of a neutral pupil, as a share of the iris' diameter."""
 
@@ -66,7 +69,6 @@ class FapFace:
         held = np.concatenate([acting, np.ones((len(root), 3), bool)])
         self.deformer: PointDeformer = fit_deformer(mesh, known.joined(root), self.axes, held, variant)
         self.known = known
-        self._read = known.matrix(len(mesh.vertices)).astype(np.float32)
         self._moving = np.flatnonzero(self._motion.acting.ravel())
         self._eyes = [eye for eye in self.deformer.eyeballs.values() if len(eye.vertices)]
         self.playable = self._playable()
@@ -84,12 +86,13 @@ class FapFace:
         """
         values = self._checked(values)
         moved: FloatArray = self._basis @ self.channel_values(values).T.astype(np.float32)
-        frames: FloatArray = np.ascontiguousarray(moved.T).reshape(len(values), -1, 3) @ self.axes.astype(np.float32)
+        shape = len(values), *self._neutral.shape
+        frames: FloatArray = np.ascontiguousarray(moved.T).reshape(shape) @ self.axes.astype(np.float32)
         frames += self._neutral
         if turn_head:
-            turns = rotation_of_angles(values[:, HEAD_TURNS], self.axes).astype(np.float32)
-            pivot = self.head_pivot.astype(np.float32)
-            frames = (frames - pivot) @ turns.transpose(0, 2, 1) + pivot
+            # What the turn adds, so that a head which does not turn stays where it is to the last digit.
+            change = self.axes.T @ (rotation_of_angles(values[:, HEAD_TURNS], np.eye(3)) - np.eye(3)) @ self.axes
+            frames += (frames - self.head_pivot.astype(np.float32)) @ change.astype(np.float32).transpose(0, 2, 1)
         return frames
 
     def measure(self, frames: FloatArray) -> FloatArray:
@@ -112,7 +115,7 @@ class FapFace:
         """Values (F, C) of the channels for FAPs (F, 68); lengths in the object's units."""
         values = self._checked(values)
         points = self._motion.displacements(values)
-        inside = (points @ self.axes.T).reshape(len(values), -1)[:, self._moving]
+        inside = (points @ self.axes.T).reshape(len(values), 3 * len(self.known))[:, self._moving]
         eyes = [self._eye_values(eye, values) for eye in self._eyes]
         return np.concatenate([inside, self.deformer.half_shut(points), *eyes], axis=1)
 
@@ -202,7 +205,9 @@ def _nose_root(mesh: TriMesh, points: FeaturePoints, axes: FloatArray) -> Featur
     found = SurfaceFinder(mesh).closest(middle[None], axes[2:], FACING)
     if found.face[0] < 0:
         return nothing
-    return FeaturePoints(("nose root",), mesh.faces[found.face], found.weights)
+    # A place on an edge belongs to the edge's ends alone, whichever of its faces was found.
+    weights = np.where(found.weights > ON_EDGE, found.weights, 0.0)
+    return FeaturePoints(("nose root",), mesh.faces[found.face], weights / weights.sum(axis=1, keepdims=True))
 
 
 def fit_fap_face(
@@ -218,13 +223,18 @@ def fit_fap_face(
 
     Raises
     ------
-    RetargetError : for a mesh or points that cannot be used: no MPEG-4 names, no left and right, a unit of no length.
+    RetargetError : for a mesh or points that cannot be used: no MPEG-4 names, no left and right, a unit of no length,
+        places that are not on the mesh; and for a variant that does not exist.
 
     References
     ----------
     Kshirsagar et al. 2003, section 3.
     """
+    if variant not in VARIANTS:
+        raise RetargetError(f"there is no variant {variant!r}, expected {' or '.join(VARIANTS)}")
     mesh = mesh.checked("the face")
+    if ((points.vertices < 0) | (points.vertices >= len(mesh.vertices))).any():
+        raise RetargetError(f"feature points lie on vertices that the face's {len(mesh.vertices)} do not include")
     named = [name for name in points.names if name in FDPS]
     if not named:
         raise RetargetError(
