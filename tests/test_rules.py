@@ -14,7 +14,10 @@ ROOMS = {
     "core": ({"numpy", "scipy", "embreex"}, {"core"}),
     "files": ({"numpy", "c3d"}, {"core", "files"}),
     "demo": ({"numpy", "scipy"}, {"core", "demo"}),
-    "bridge": ({"numpy", "bpy", "mathutils", "bpy_extras"}, {"core", "files", "bridge", "fap_controls", "properties", "demo"}),
+    "bridge": (
+        {"numpy", "bpy", "mathutils", "bpy_extras"},
+        {"core", "files", "bridge", "fap_controls", "properties", "demo"},
+    ),
 }
 """Room -> the packages from outside it may import, and the rooms it may import."""
 
