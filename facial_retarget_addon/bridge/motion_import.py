@@ -13,16 +13,15 @@ from ..core.fap_face import HEAD_TURNS
 from ..core.mpeg4.arkit import ARKIT_NAMES
 from ..core.mpeg4.arkit_take import ArkitTake
 from ..core.mpeg4.conversions import low_level
-from ..files.fap_report import mute_warnings
 from ..files.motion import read_motion
 from ..files.motion_stream import stream_of_motion
 from .arkit_keys import find_arkit_keys
 from .background import Steps, in_thread, part
-from .controls import has_controls, shown_faps
+from .controls import has_controls
 from .fap_faces import fit_steps
 from .head_empty import write_head
 from .motion_curves import MOTION, clear_motion
-from .motion_ways import Take, arkit_steps, controls_steps, frames_steps, points_steps
+from .motion_ways import Take, controls_steps, frames_steps, points_steps
 from .performance import scene_rate
 
 WAYS = {"CONTROLS": controls_steps, "POINTS": points_steps, "FRAMES": frames_steps}
@@ -81,15 +80,10 @@ def import_motion_steps(context: Context, thing: Object, options: ImportOptions)
     face = None
     if options.head == "EMPTY" or options.way != "CONTROLS" or _needs_face(thing, take):
         face = yield from part(fit_steps(thing), 0.2, 0.4)
-    named = options.way == "CONTROLS" and isinstance(take.motion, ArkitTake)
-    prepare = arkit_steps if named else WAYS[options.way]
-    write = yield from part(prepare(thing, face, take), 0.6, 0.3)
+    write = yield from part(WAYS[options.way](thing, face, take), 0.6, 0.3)
     yield 0.9, "Writing"
     clear_motion(thing)
-    write()
-    warnings = list(take.warnings)
-    if not named:
-        warnings += mute_warnings(take.values, shown_faps(thing) if face is None else face.playable)
+    warnings = [*take.warnings, *write()]
     if options.head == "EMPTY":
         empty = write_head(thing, face, take.frames, take.values[:, HEAD_TURNS], MOTION)
         if "7.1" not in thing.facial_retarget.points:

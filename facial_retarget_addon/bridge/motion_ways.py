@@ -16,12 +16,14 @@ from ..core.errors import RetargetError
 from ..core.expression_sets import expression_shapes
 from ..core.fap_face import FapFace
 from ..core.mpeg4.arkit import ARKIT_NAMES
+from ..core.mpeg4.arkit_take import ArkitTake
 from ..fap_controls import CONTROLS, REACH
+from ..files.fap_report import mute_warnings
 from ..files.motion import Motion
 from .arkit_keys import find_arkit_keys
 from .background import Steps, in_thread
 from .bake import write_frames
-from .controls import Shapes, has_controls, shape_steps, write_controls
+from .controls import Shapes, has_controls, shape_steps, shown_faps, write_controls
 from .curves import ensure_curves, remove_curves, write_curve
 from .fap_faces import write_shapes
 from .motion_curves import CHANNELS, MOTION, check_free, drive_keys
@@ -32,7 +34,8 @@ BLOCK = 16
 WHOLE = 1e-6
 """Scene frames by which the end of a motion may miss a whole one."""
 
-Write = Callable[[], None]
+Write = Callable[[], list[str]]
+"""Writes what was prepared; returns sentences that an artist should read."""
 
 
 @dataclass(frozen=True)
@@ -54,7 +57,9 @@ class Take:
 
 
 def controls_steps(thing: Object, face: FapFace | None, take: Take) -> Steps[Write]:
-    """Curves of the FAP controls, which are made if the face has none."""
+    """Curves of the FAP controls, which are made if the face has none; for ARKit weights, of their named shape keys."""
+    if isinstance(take.motion, ArkitTake):
+        return (yield from _named_steps(thing, face, take.motion, take.frames))
     numbers = [control.fap.number for control in CONTROLS]
     reached = np.abs(take.values[:, [number - 1 for number in numbers]]).max(axis=0)
     limits = np.array([REACH * control.full for control in CONTROLS])
@@ -68,7 +73,7 @@ def controls_steps(thing: Object, face: FapFace | None, take: Take) -> Steps[Wri
     if not has_controls(thing):
         shapes = yield from shape_steps(face)
 
-    def write() -> None:
+    def write() -> list[str]:
         if shapes is not None:
             write_controls(thing, shapes)
         bag = ensure_curves(thing, f"{thing.name} motion")
@@ -78,29 +83,33 @@ def controls_steps(thing: Object, face: FapFace | None, take: Take) -> Steps[Wri
                 write_curve(bag, control.path, take.frames, take.values[:, control.fap.number - 1], group=MOTION)
             elif control.name in thing:
                 thing[control.name] = 0.0
+        return mute_warnings(take.values, shown_faps(thing))
 
     return write
 
 
-def arkit_steps(thing: Object, face: FapFace | None, take: Take) -> Steps[Write]:
-    """Curves of the 52 named shape keys; those that are missing are made from the points."""
+def _named_steps(thing: Object, face: FapFace | None, take: ArkitTake, frames: FloatArray) -> Steps[Write]:
+    """Curves of the 52 named shape keys; those that are missing are made, if there is a face to make them from."""
     named = find_arkit_keys(thing)
     missing = [name for name in ARKIT_NAMES if name not in named]
-    if missing and face is None:
+    if not named and face is None:
         raise RetargetError(
-            f"object {thing.name!r} has no shape key {', '.join(missing)}, and no feature points to make them from"
+            f"object {thing.name!r} has no shape key with an ARKit name such as jawOpen, and no feature points to make "
+            "one from"
         )
     check_free(thing, named.values())
     made: dict[str, FloatArray] = {}
-    if missing:
+    if missing and face is not None:
         made = yield from in_thread(lambda progress: expression_shapes(face, ("arkit",)))
-    weights = dict(zip(ARKIT_NAMES, take.motion.weights.T, strict=True))
+    weights = dict(zip(ARKIT_NAMES, take.weights.T, strict=True))
 
-    def write() -> None:
+    def write() -> list[str]:
         write_shapes(thing, {name: made[name] for name in missing if name in made})
-        for name in missing:
-            ensure_key(thing, name)
-        drive_keys(thing, {named.get(name, name): values for name, values in weights.items()}, take.frames, MOTION)
+        if face is not None:
+            named.update({name: ensure_key(thing, name).name for name in missing})
+        drive_keys(thing, {key: weights[name] for name, key in named.items()}, frames, MOTION)
+        lost = [name for name in missing if name not in made and weights[name].any()]
+        return [f"ARKit shapes that the take uses and the face cannot show: {', '.join(lost)}"] if lost else []
 
     return write
 
@@ -121,9 +130,10 @@ def points_steps(thing: Object, face: FapFace, take: Take) -> Steps[Write]:
     shapes, values = yield from in_thread(compute)
     check_free(thing, shapes)
 
-    def write() -> None:
+    def write() -> list[str]:
         write_shapes(thing, shapes)
         drive_keys(thing, values, take.frames, CHANNELS)
+        return mute_warnings(take.values, face.playable)
 
     return write
 
@@ -141,4 +151,9 @@ def frames_steps(thing: Object, face: FapFace, take: Take) -> Steps[Write]:
             progress(start / len(whole), f"Frame {start + 1} of {len(whole)}")
 
     yield from in_thread(compute)
-    return lambda: write_frames(thing, frames, first)
+
+    def write() -> list[str]:
+        write_frames(thing, frames, first)
+        return mute_warnings(take.values, face.playable)
+
+    return write
