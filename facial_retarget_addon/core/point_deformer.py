@@ -12,12 +12,13 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.linalg import splu
+from scipy.spatial import cKDTree
 
 from .arrays import BoolArray, FloatArray
 from .eyeballs import Eyeball, find_eyeballs
 from .eyelids import Lid, around_the_ball, find_lids, half_shut
 from .mesh import TriMesh
-from .point_weights import LEAST, point_weights
+from .point_weights import point_weights
 from .points import FeaturePoints
 
 LID_REACH = 0.75
@@ -26,12 +27,18 @@ LID_GAPS = 1.5
 """How far a lid reaches on a face without brow points, in gaps between the lids."""
 SMOOTH = 0.018
 """How far shares are evened out along the surface, as a share of the points' extent."""
+BESIDE = 0.3
+"""The most that shares are evened out, as a share of the median distance from a point to the next."""
 FAINT = 1e-3
 """Evened-out shares below this are none."""
-ARRIVED = 0.99
-"""A point arrives if it takes this share of what it is sent."""
-CROWDED = 80.0
-"""Points that could only move independently by more than this many times their motion move together instead."""
+SMALL = 1e-3
+"""Finished shares below this are none."""
+DAMPING = 0.15
+"""Damping of the inverse, as a share of its largest singular value: nothing grows to more than half of 1 / it."""
+CROWDED = 10.0
+"""Points that could move independently only by more than this many times their motion move together instead."""
+ASTRAY = 0.01
+"""Points that miss their place by more than this share of a motion are named."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,7 +115,9 @@ def fit_deformer(
     owner = points.index([lid.middle for lid in lids for _ in lid.vertices])
     acts = np.concatenate([acting, acting[owner]])
     weights = point_weights(mesh, joined, acts, variant, _farthest(mesh, points, lids))
-    blocks, warnings = _refined(mesh, joined, acts, weights)
+    blocks, warnings = _refined(
+        mesh, joined, len(points), acts, weights, _smoothing(points.positions(mesh.vertices) @ axes.T)
+    )
     straight = _interleaved(blocks)
     bends, arcs = _around_the_balls(mesh, points, straight, lids, eyeballs, axes)
     matrix = straight @ _folded(len(points), lids, points, axes) + bends
@@ -175,30 +184,60 @@ def _folded(count: int, lids: list[Lid], points: FeaturePoints, axes: FloatArray
     return sp.csr_matrix(entries, shape=(3 * first, 3 * count))
 
 
+def _smoothing(places: FloatArray) -> float:
+    """How far shares are evened out: by the extent along the head's axes of places (P, 3), not beyond those beside."""
+    extent = float(np.linalg.norm(np.ptp(places, axis=0)))
+    beside = cKDTree(places).query(places, k=2)[0][:, 1] if len(places) > 1 else np.array([extent])
+    return min(SMOOTH * extent, BESIDE * float(np.median(beside)))
+
+
 def _refined(
-    mesh: TriMesh, points: FeaturePoints, acting: BoolArray, blocks: tuple[sp.csr_matrix, ...]
+    mesh: TriMesh,
+    points: FeaturePoints,
+    count: int,
+    acting: BoolArray,
+    blocks: tuple[sp.csr_matrix, ...],
+    smooth: float,
 ) -> tuple[tuple[sp.csr_matrix, ...], list[str]]:
-    """The weights evened out along the surface, and then such that every point arrives where it is sent."""
-    extent = float(np.linalg.norm(np.ptp(points.positions(mesh.vertices), axis=0)))
+    """The weights evened out along the surface, and then such that the first `count` points arrive where they are sent.
+
+    Exactness may not cost wild motion beside the points: the shares are first brought near it with damping.
+    """
     areas = mesh.vertex_areas + 1e-12 * mesh.size**2
-    even = splu((sp.diags(areas) + (SMOOTH * extent) ** 2 * mesh_laplacian(mesh)).tocsc())
+    even = splu((sp.diags(areas) + smooth**2 * mesh_laplacian(mesh)).tocsc())
     places = points.matrix(len(mesh.vertices))
-    refined, crowded = [], np.zeros(len(points), bool)
+    refined, crowded = [], np.zeros(count, bool)
     for axis, block in enumerate(blocks):
         rows = np.flatnonzero(acting[:, axis])
         shares = even.solve(areas[:, None] * block[:, rows].toarray())
         shares[np.abs(shares) < FAINT] = 0.0
         arriving = places[rows] @ shares
-        sent = np.linalg.pinv(arriving, rcond=1 / CROWDED)
-        crowded[rows] |= np.diag(arriving @ sent) < ARRIVED
-        sent[np.abs(sent) < LEAST] = 0.0
-        exact = sp.coo_matrix(sp.csr_matrix(shares) @ sp.csr_matrix(sent))
-        exact.data[np.abs(exact.data) < 3 * LEAST] = 0.0
-        exact.eliminate_zeros()
+        near = shares @ _damped_inverse(arriving)
+        # What the guides need is near enough; the points themselves get the rest.
+        own = np.flatnonzero(rows < count)
+        missing = np.eye(len(rows))[own] - places[rows[own]] @ near
+        rest = np.linalg.pinv(places[rows[own]] @ near[:, own], rcond=1 / CROWDED) @ missing
+        crowded[rows[own]] |= np.abs(missing - places[rows[own]] @ (near[:, own] @ rest)).max(axis=1) > ASTRAY
+        near += near[:, own] @ rest
+        # Small shares are left out; what they did at the points goes to the vertices that hold them.
+        kept = np.where(np.abs(near) < SMALL, 0.0, near)
+        held = places[rows[own]]
+        exact = sp.csr_matrix(kept) + held.T @ sp.csr_matrix(
+            np.linalg.pinv((held @ held.T).toarray()) @ (held @ (near - kept))
+        )
+        exact = exact.tocoo()
         refined.append(sp.csr_matrix((exact.data, (exact.row, rows[exact.col])), shape=block.shape))
-    together = [name for name, close in zip(points.names, crowded, strict=True) if close]
+    together = [name for name, close in zip(points.names, crowded, strict=False) if close]
     crowd = f"points {', '.join(together)} lie so close together on this mesh that some of them move as one"
     return tuple(refined), [crowd] if together else []
+
+
+def _damped_inverse(matrix: FloatArray) -> FloatArray:
+    """The inverse of a square matrix, with what would be multiplied by more than a bound held back (Tikhonov)."""
+    u, size, vt = np.linalg.svd(matrix)
+    damping = DAMPING * size.max(initial=0.0)
+    inverse: FloatArray = (vt.T * (size / (size**2 + damping**2))) @ u.T
+    return inverse
 
 
 def mesh_laplacian(mesh: TriMesh) -> sp.csr_matrix:
