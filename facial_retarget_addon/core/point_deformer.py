@@ -14,7 +14,7 @@ import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 from scipy.spatial import cKDTree
 
-from .arrays import BoolArray, FloatArray
+from .arrays import BoolArray, FloatArray, IntArray
 from .eyeballs import Eyeball, find_eyeballs
 from .eyelids import Lid, around_the_ball, find_lids, half_shut
 from .mesh import TriMesh
@@ -37,6 +37,8 @@ DAMPING = 0.15
 """Damping of the inverse, as a share of its largest singular value: nothing grows to more than half of 1 / it."""
 CROWDED = 10.0
 """Points that could move independently only by more than this many times their motion move together instead."""
+ROUNDS = 4
+"""How often what a lid's guides miss of their way is sent after them."""
 ASTRAY = 0.01
 """Points that miss their place by more than this share of a motion are named."""
 
@@ -119,8 +121,9 @@ def fit_deformer(
         mesh, joined, len(points), acts, weights, _smoothing(points.positions(mesh.vertices) @ axes.T)
     )
     straight = _interleaved(blocks)
-    bends, arcs = _around_the_balls(mesh, points, straight, lids, eyeballs, axes)
-    matrix = straight @ _folded(len(points), lids, points, axes) + bends
+    sent = _sent_after(straight, _folded(len(points), lids, points, axes), lids)
+    bends, arcs = _around_the_balls(mesh, points, straight, sent, lids, eyeballs, axes)
+    matrix = straight @ sent + bends
     rows = tuple(int(row) for row in points.index([lid.middle for lid in lids]))
     return PointDeformer(
         axes, matrix.astype(np.float32), arcs.astype(np.float32), eyeballs, tuple(lids), rows, tuple(warnings)
@@ -184,6 +187,21 @@ def _folded(count: int, lids: list[Lid], points: FeaturePoints, axes: FloatArray
     return sp.csr_matrix(entries, shape=(3 * first, 3 * count))
 
 
+def _sent_after(straight: sp.csr_matrix, sent: sp.csr_matrix, lids: list[Lid]) -> sp.csr_matrix:
+    """What is sent, (3 (P + G), 3P), with what the guides miss of it sent after them: a lid shuts along its margin.
+
+    Guides arrive only nearly where each of them is sent. What a whole lid's guides miss together is smooth, so that a
+    few rounds bring them there without wild motion beside them.
+    """
+    wanted = sent[sent.shape[1] :]
+    guides = np.concatenate([lid.vertices for lid in lids] or [np.empty(0, np.int64)])
+    arriving = straight[(3 * guides[:, None] + np.arange(3)).ravel()]
+    for _ in range(ROUNDS):
+        missed = wanted - arriving @ sent
+        sent = sent + sp.vstack([sp.csr_matrix((sent.shape[1], sent.shape[1])), missed], format="csr")
+    return sent
+
+
 def _smoothing(places: FloatArray) -> float:
     """How far shares are evened out: by the extent along the head's axes of places (P, 3), not beyond those beside."""
     extent = float(np.linalg.norm(np.ptp(places, axis=0)))
@@ -211,33 +229,43 @@ def _refined(
         rows = np.flatnonzero(acting[:, axis])
         shares = even.solve(areas[:, None] * block[:, rows].toarray())
         shares[np.abs(shares) < FAINT] = 0.0
-        arriving = places[rows] @ shares
-        near = shares @ _damped_inverse(arriving)
-        # What the guides need is near enough; the points themselves get the rest.
-        own = np.flatnonzero(rows < count)
-        missing = np.eye(len(rows))[own] - places[rows[own]] @ near
-        rest = np.linalg.pinv(places[rows[own]] @ near[:, own], rcond=1 / CROWDED) @ missing
-        crowded[rows[own]] |= np.abs(missing - places[rows[own]] @ (near[:, own] @ rest)).max(axis=1) > ASTRAY
-        near += near[:, own] @ rest
-        # Small shares are left out; what they did at the points goes to the vertices that hold them.
-        kept = np.where(np.abs(near) < SMALL, 0.0, near)
-        held = places[rows[own]]
-        exact = sp.csr_matrix(kept) + held.T @ sp.csr_matrix(
-            np.linalg.pinv((held @ held.T).toarray()) @ (held @ (near - kept))
-        )
-        exact = exact.tocoo()
+        own, held = np.flatnonzero(rows < count), places[rows[rows < count]]
+        sent, astray = _sent(places[rows] @ shares, own)
+        crowded[rows[own[astray]]] = True
+        arriving = held @ shares @ sent
+        # A point moves only what its neighbours reach; small shares are left out. What both would have done at the
+        # points goes to the vertices that hold them.
+        overlap = np.abs(shares).T @ np.abs(shares)
+        near = shares @ np.where(overlap > 0, sent, 0.0)
+        near[np.abs(near) < SMALL] = 0.0
+        lost = np.linalg.pinv((held @ held.T).toarray()) @ (arriving - held @ near)
+        exact = (sp.csr_matrix(near) + held.T @ sp.csr_matrix(lost)).tocoo()
         refined.append(sp.csr_matrix((exact.data, (exact.row, rows[exact.col])), shape=block.shape))
     together = [name for name, close in zip(points.names, crowded, strict=False) if close]
     crowd = f"points {', '.join(together)} lie so close together on this mesh that some of them move as one"
     return tuple(refined), [crowd] if together else []
 
 
-def _damped_inverse(matrix: FloatArray) -> FloatArray:
-    """The inverse of a square matrix, with what would be multiplied by more than a bound held back (Tikhonov)."""
-    u, size, vt = np.linalg.svd(matrix)
+def _sent(arriving: FloatArray, own: IntArray) -> tuple[FloatArray, BoolArray]:
+    """What points and guides are to be sent so that the points (rows `own`) arrive where they should.
+
+    Parameters
+    ----------
+    arriving : (n, n) where each arrives (row) when another (column) is sent to 1.
+
+    Returns
+    -------
+    (n, n) for a column's motion, what each (row) is sent; and for each of the points whether it still goes astray.
+    """
+    u, size, vt = np.linalg.svd(arriving)
     damping = DAMPING * size.max(initial=0.0)
-    inverse: FloatArray = (vt.T * (size / (size**2 + damping**2))) @ u.T
-    return inverse
+    damped = (vt.T * (size / (size**2 + damping**2))) @ u.T
+    near = arriving[own] @ damped
+    # What the guides get is near enough; the points themselves get the rest.
+    missing = np.eye(len(arriving))[own] - near
+    rest = np.linalg.pinv(near[:, own], rcond=1 / CROWDED) @ missing
+    astray: BoolArray = np.abs(missing - near[:, own] @ rest).max(axis=1, initial=0.0) > ASTRAY
+    return damped + damped[:, own] @ rest, astray
 
 
 def mesh_laplacian(mesh: TriMesh) -> sp.csr_matrix:
@@ -260,6 +288,7 @@ def _around_the_balls(
     mesh: TriMesh,
     points: FeaturePoints,
     straight: sp.csr_matrix,
+    sent: sp.csr_matrix,
     lids: list[Lid],
     eyeballs: dict[str, Eyeball],
     axes: FloatArray,
@@ -267,6 +296,7 @@ def _around_the_balls(
     """(3V, 3P) what bends closing lids around the eyeballs, and (3V, L) the rest of it that only half the way needs.
 
     straight : (3V, 3 (P + G)) the motion of points and guides, in the head's axes.
+    sent : (3 (P + G), 3P) what points and guides are sent when the points move.
     """
     middles = points.index([lid.middle for lid in lids])
     others = np.setdiff1d(np.arange(len(points)), middles)
@@ -278,11 +308,9 @@ def _around_the_balls(
         ball, middle = eyeballs[lid.side], int(points.index([lid.middle])[0])
         senders = np.array([middle, *range(first, first + len(lid.vertices))])
         first += len(lid.vertices)
-        gaps, rises = np.concatenate([lid.gap[None], lid.gaps]), np.array([lid.rise, *lid.rises])
-        columns = 3 * senders[:, None] + np.arange(3)
-        shut = (straight[:, columns.ravel()] @ (gaps @ axes.T).ravel()).reshape(-1, 3) @ axes
+        shut = (straight @ (sent[:, 3 * middle : 3 * middle + 3] @ (axes @ lid.gap))).reshape(-1, 3) @ axes
         # How far a vertex rises is shared out as its motion upwards is.
-        rise = straight[1::3][:, columns[:, 1]] @ rises
+        rise = straight[1::3][:, 3 * senders + 1] @ np.array([lid.rise, *lid.rises])
         skin = np.flatnonzero(np.linalg.norm(shut, axis=1) > FAINT * np.linalg.norm(lid.gap))
         # Every point stays where it is sent, a lid's own along its height, which it is measured by.
         free = np.repeat(~np.isin(skin, held)[:, None], 3, axis=1)
