@@ -20,6 +20,10 @@ SOFT = 0.25
 """Weight of the nearest neighbour's distance in a point's reach, against the neighbours that lie in the direction."""
 LEAST = 1e-4
 """Shares of a point's motion below this are none."""
+SAME = 1e-6
+"""Points nearer to each other than this share of the mesh's size are in one place."""
+NEAREST = 6
+"""Neighbours of a point that has no region of its own."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,9 +88,14 @@ def point_weights(
     for axis in range(3):
         rows = np.flatnonzero(acting[:, axis])
         neighbours = _neighbours(mesh, distances[rows])
+        apart = np.isfinite(between) & (between > SAME * mesh.size)
         reaches = []
         for i, row in enumerate(rows):
-            beside = rows[neighbours[i] & np.isfinite(between[row, rows])]
+            beside = rows[neighbours[i] & apart[row, rows]]
+            if not len(beside):
+                # Another point in the same place has the region: the nearest others are the neighbours.
+                others = rows[apart[row, rows]]
+                beside = others[np.argsort(between[row, others], kind="stable")[:NEAREST]]
             reach = _paper_reach if paper else _reach
             own = reach(mesh, places, normals, distances[row], between[row, beside], row, beside)
             reaches.append(own if farthest is None else own.ending(farthest[row]))
