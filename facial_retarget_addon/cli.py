@@ -67,7 +67,7 @@ def _add_fap_arguments(fap: argparse.ArgumentParser) -> None:
     fap.add_argument("--gaps", choices=("fill", "refuse"), default="fill", help="what becomes of hidden markers")
     fap.add_argument("--map", type=Path, help="a marker map, where the markers' names do not say where they sit")
     fap.add_argument("--fps", type=float, help="frames a second, where the motion does not tell")
-    fap.add_argument("--frames", default=":", help="FIRST:LAST:STEP, from 1 (default: all)")
+    fap.add_argument("--frames", default=":", metavar="FIRST:LAST:STEP", help="which frames, from 1 (default: all)")
     fap.set_defaults(command=_fap)
 
 

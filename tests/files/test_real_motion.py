@@ -12,6 +12,8 @@ import pytest
 from facial_retarget_addon.cli import main
 from facial_retarget_addon.core.mesh import TriMesh
 from facial_retarget_addon.core.mpeg4.conversions import low_level, stream_of_values
+from facial_retarget_addon.core.mpeg4.fdps import FDPS
+from facial_retarget_addon.core.mpeg4.head import head_axes
 from facial_retarget_addon.core.points import FeaturePoints
 from facial_retarget_addon.files.fap import read_fap, write_fap
 from facial_retarget_addon.files.points import read_points
@@ -69,9 +71,11 @@ def motion_of(frames: np.ndarray, face: RealFace) -> np.ndarray:
 
 
 def gap(face: RealFace, frames: np.ndarray, upper: str = "2.2", lower: str = "2.3") -> np.ndarray:
-    """(F,) height between two points."""
+    """(F,) how far a point is above another one, as the head stands."""
     places = face.places(frames, upper, lower)
-    return places[:, 0, 1] - places[:, 1, 1]
+    known = [name for name in face.points.names if name in FDPS]
+    up = head_axes(known, face.places(face.mesh.vertices[None], *known)[0])[1]
+    return (places[:, 0] - places[:, 1]) @ up
 
 
 @pytest.fixture(scope="module")
