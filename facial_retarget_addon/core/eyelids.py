@@ -25,7 +25,7 @@ INSIDE_COST = 20.0
 CLEAR = 1.02
 """A closed lid's margin is at least this many times as far from the centre as the eyeball's surface."""
 MOST_RISE = 0.08
-"""The most that a closing margin rises from the eyeball, in radii."""
+"""The most that a closing margin rises from the eyeball, in radii, where the head has one."""
 AROUND = 0.15
 """Radians around a direction in which the eyeball's farthest place counts."""
 NEAREST = 6
@@ -167,7 +167,9 @@ def _lid(
     arrived = places + np.concatenate([gaps, gap])
     # A margin that dips into the eyeball comes out of it as the lid closes.
     distance = np.maximum(np.linalg.norm(arrived, axis=1), CLEAR * _reach(mesh, ball, arrived))
-    rises = np.minimum(distance - np.linalg.norm(places, axis=1), MOST_RISE * ball.radius)
+    rises = distance - np.linalg.norm(places, axis=1)
+    if len(ball.vertices):
+        rises = np.minimum(rises, MOST_RISE * ball.radius)
     return Lid(ball.side, name, vertices[chosen], gaps, gap[0], rises[:-1], float(rises[-1]))
 
 
