@@ -48,10 +48,12 @@ def _parser() -> argparse.ArgumentParser:
     _add_fap_arguments(fap)
     shapes = commands.add_parser("shapes", help="give a face the standard's shapes, from its feature points alone")
     _add_shapes_arguments(shapes)
+    morph = commands.add_parser("morph", help="make a generic head into another by its feature points alone")
+    _add_morph_arguments(morph)
     demo = commands.add_parser("demo", help="write the built-in faces and their jobs, and do them")
     demo.add_argument("folder", type=Path, nargs="?", default=Path("demo"), help="where to (default: demo)")
     demo.set_defaults(command=_demo)
-    for command in (run, check, fap, shapes, demo):
+    for command in (run, check, fap, shapes, morph, demo):
         command.add_argument("--quiet", action="store_true", default=argparse.SUPPRESS, help="no progress")
     return parser
 
@@ -80,6 +82,15 @@ def _add_shapes_arguments(shapes: argparse.ArgumentParser) -> None:
     )
     _add_face_arguments(shapes, required=True)
     shapes.set_defaults(command=_shapes)
+
+
+def _add_morph_arguments(morph: argparse.ArgumentParser) -> None:
+    morph.add_argument("--face", type=Path, required=True, help="the generic head (.obj .ply .npz)")
+    morph.add_argument("--points", type=Path, required=True, help="its feature points (.json)")
+    morph.add_argument("--to-face", type=Path, required=True, help="the face that the wanted points lie on")
+    morph.add_argument("--to-points", type=Path, required=True, help="the wanted points (.json)")
+    morph.add_argument("--out", type=Path, required=True, help="the morphed head (.obj .ply .npz)")
+    morph.set_defaults(command=_morph)
 
 
 def _add_face_arguments(command: argparse.ArgumentParser, required: bool) -> None:
@@ -144,6 +155,16 @@ def _shapes(arguments: argparse.Namespace) -> int:
     face = FapFaceFiles(arguments.face, arguments.points, arguments.variant)
     task = ShapesTask(face, tuple(arguments.set), arguments.out, arguments.report, arguments.page)
     _warn(run_shapes_task(task, _progress(arguments))["warnings"])
+    return 0
+
+
+def _morph(arguments: argparse.Namespace) -> int:
+    from .files.morph_task import run_morph_task
+    from .files.mpeg4_face import FapFaceFiles
+
+    head = FapFaceFiles(arguments.face, arguments.points)
+    wanted = FapFaceFiles(arguments.to_face, arguments.to_points)
+    _warn(run_morph_task(head, wanted, arguments.out).warnings)
     return 0
 
 

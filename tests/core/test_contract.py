@@ -18,7 +18,7 @@ from facial_retarget_addon.core.problem import Face, Problem
 from facial_retarget_addon.core.retarget import retarget
 
 RESOLUTION = {"hierarchical": 0.03, "feature_points": 0.35}
-"""Method -> relative error of a face onto itself that it states as its own: points do not carry what is between them."""
+"""Method -> relative error of a face onto itself that it states as its own; points do not carry what lies between."""
 
 QUICK: dict[str, dict[str, object]] = {"hierarchical": {"levels": 2}, "feature_points": {}}
 """Method -> settings that are quick to fit."""
