@@ -171,6 +171,19 @@ def test_margins_run_along_the_openings_rim(actor: Face, lids: dict[str, Lid]) -
         assert sign * lid.gap[1] > 0
 
 
+def test_margins_of_a_real_head_stay_out_of_its_sockets(shared_data: Path) -> None:
+    """Behind its lids the skin of this head goes on into the sockets and looks at the eyeball there."""
+    with np.load(shared_data / "ict_dev.npz") as data:
+        mesh = TriMesh(data["vertices"], data["tris"])
+    named = read_points(shared_data / "ict_points.json", mesh)
+    points = named.subset([name for name in named.names if name in FDPS])
+    found = eyeballs_of(mesh, points)
+    for lid in find_lids(mesh, points, found):
+        away = mesh.vertices[lid.vertices] - found[lid.side].centre
+        cosine = np.einsum("gi,gi->g", mesh.vertex_normals[lid.vertices], away) / np.linalg.norm(away, axis=1)
+        assert cosine.min() > -0.2, lid.middle
+
+
 def test_gaps_end_on_the_other_margin(actor: Face, lids: dict[str, Lid]) -> None:
     border = np.unique(actor.mesh.edges[actor.mesh.edge_face_count == 1])
     edge = np.median(actor.mesh.edge_lengths[np.isin(actor.mesh.edges, border).all(axis=1)])
