@@ -110,6 +110,17 @@ def test_units_are_lengths_of_the_face(places: Places) -> None:
     assert fapu.mw == pytest.approx(np.linalg.norm(places["8.3"] - places["8.4"]))
 
 
+def test_units_are_the_standards_gaps() -> None:
+    """A made-up face of points alone, whose gaps are all different."""
+    heights = {"3.1": 1.3, "3.3": 1.0, "3.2": 1.4, "3.4": 0.9, "3.5": 1.1, "3.6": 1.2, "9.15": 0.2, "2.2": -0.5}
+    across = {"3.5": 0.6, "3.6": -0.7, "8.3": 0.5, "8.4": -0.3}
+    names = [*heights, "8.3", "8.4", "2.3"]
+    positions = np.array([[across.get(name, 0.0), heights.get(name, -0.6), 0.0] for name in names])
+    fapu = measure_fapu(names, positions, np.eye(3))
+    np.testing.assert_allclose(lengths(fapu), [0.4, 1.3, 0.95, 0.7, 0.8])
+    assert "placed" not in "".join(fapu.taken.values())
+
+
 def test_units_grow_with_the_face_and_do_not_turn(places: Places) -> None:
     rng = np.random.default_rng(1)
     names, positions = arrays(places)
