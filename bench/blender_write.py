@@ -36,7 +36,6 @@ def rows() -> Iterator[Row]:
     yield Row("the same keys through key.data, without curves", documented, "s")
     yield Row("the bake is faster by", documented / ours, "x")
 
-
     for vertices, bound in PLAYED.items():
         yield Row(f"FAPs into a shape key, {vertices} vertices", play(vertices), "frames/s", bound, at_least=True)
 
