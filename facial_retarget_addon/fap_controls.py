@@ -54,7 +54,7 @@ class Drive:
     expression : its value, of the variables and with what Blender's own expressions know; {shut} stands for the FAP's
         value that shuts the lid.
     controls : variable -> control.
-    channels : what the shape adds up: channel of `FapFace` -> factor. None for the FAP's own shape at full strength.
+    channels : what the shape adds up: channel of `FapFace` -> factor. Empty for the FAP's own shape at full strength.
     """
 
     key: str
