@@ -262,6 +262,9 @@ def test_two_points_on_one_vertex_move_it_by_halves(variant: str) -> None:
     np.testing.assert_allclose(found[points.vertices[4, 0], [4, 9]], 0.5, atol=1e-6)
     assert np.isfinite(found).all()
     np.testing.assert_allclose(found[points.vertices[:4, 0], :4], np.eye(4), atol=1e-3)
+    # Neither reaches farther than it would alone.
+    alone = shares(mesh, points, variant)[:, 4] > 0
+    assert not found[:, [4, 9]][~alone].any()
 
 
 def test_no_points_move_nothing() -> None:
