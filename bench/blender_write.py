@@ -12,7 +12,7 @@ import numpy as np
 from facial_retarget_addon.bridge.bake import key_name, write_frames
 from facial_retarget_addon.bridge.meshes import new_object
 from facial_retarget_addon.bridge.shape_keys import ensure_key, write_key
-from facial_retarget_addon.core.fap_face import fit_fap_face
+from facial_retarget_addon.core.acting.fap_face import fit_fap_face
 
 from .faces import skin
 from .timing import Row

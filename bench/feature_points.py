@@ -9,11 +9,11 @@ from time import perf_counter
 
 import numpy as np
 
+from facial_retarget_addon.core.acting.fap_face import FapFace, fit_fap_face
+from facial_retarget_addon.core.acting.point_deformer import fit_deformer
 from facial_retarget_addon.core.arrays import FloatArray
-from facial_retarget_addon.core.fap_face import FapFace, fit_fap_face
 from facial_retarget_addon.core.mesh import TriMesh
 from facial_retarget_addon.core.mpeg4.faps import FAPS
-from facial_retarget_addon.core.point_deformer import fit_deformer
 from facial_retarget_addon.core.points import FeaturePoints
 from facial_retarget_addon.files.points import read_points
 

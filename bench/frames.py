@@ -7,9 +7,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from facial_retarget_addon import demo
+from facial_retarget_addon.core.levels.normal_synthesis import NormalSynthesis
 from facial_retarget_addon.core.methods import hierarchical
 from facial_retarget_addon.core.methods.settings import HierarchicalSettings
-from facial_retarget_addon.core.normal_synthesis import NormalSynthesis
 from facial_retarget_addon.core.pair import prepare_pair
 
 from .deformation_transfer import DeformationTransfer

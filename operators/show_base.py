@@ -18,7 +18,7 @@ class FACIAL_RETARGET_OT_show_base(OnTask, Operator):
         """Build, then show."""
         from ..facial_retarget_addon.bridge.base_object import show_base
         from ..facial_retarget_addon.bridge.task import read_problem
-        from ..facial_retarget_addon.core.base_mesh import base_mesh
+        from ..facial_retarget_addon.core.base.base_mesh import base_mesh
 
         problem = read_problem(context)
         source, target = problem.source, problem.target

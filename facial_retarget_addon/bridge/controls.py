@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from bpy.types import Depsgraph, Object
 
+from ..core.acting.expression_sets import expression_shapes
+from ..core.acting.fap_face import HEAD_TURNS, FapFace
 from ..core.arrays import BoolArray, FloatArray, Progress
-from ..core.expression_sets import expression_shapes
-from ..core.fap_face import HEAD_TURNS, FapFace
 from ..core.mpeg4.faps import FAPS
 from ..fap_controls import CONTROLS, DRIVES, REACH, Control, Drive
 from .background import Steps, in_thread, part

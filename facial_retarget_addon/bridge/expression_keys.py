@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 from bpy.types import Object
 
+from ..core.acting.expression_sets import expression_shapes, still_shapes
 from ..core.arrays import FloatArray, Progress
-from ..core.expression_sets import expression_shapes, still_shapes
 from .background import Steps, in_thread, part
 from .fap_faces import fit_steps, write_shapes
 from .shape_keys import ensure_key, find_key, key_displacement

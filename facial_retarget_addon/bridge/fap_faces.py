@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from bpy.types import Object
 
+from ..core.acting.fap_face import FapFace, fit_fap_face
 from ..core.arrays import FloatArray, Progress
-from ..core.fap_face import FapFace, fit_fap_face
 from .background import Steps, in_thread
 from .meshes import from_face_space, neutral_mesh
 from .points import read_points

@@ -7,8 +7,8 @@ import numpy as np
 from bpy.types import Depsgraph, Object
 from mathutils import Matrix, Vector
 
+from ..core.acting.fap_face import FapFace
 from ..core.arrays import FloatArray
-from ..core.fap_face import FapFace
 from ..core.mpeg4.fapu import ANGLE
 from .curves import ensure_curves, find_curves, remove_curves, write_curve
 from .meshes import from_face_space, stretch

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 from bpy.types import Context, Object
 
+from ..core.acting.fap_face import HEAD_TURNS
+from ..core.acting.moving_head import measure_moving_head
 from ..core.errors import RetargetError
-from ..core.fap_face import HEAD_TURNS
-from ..core.moving_head import measure_moving_head
 from ..core.mpeg4.arkit import ARKIT_NAMES
 from ..core.mpeg4.arkit_take import ArkitTake
 from ..core.mpeg4.conversions import stream_of_values

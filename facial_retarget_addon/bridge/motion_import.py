@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 from bpy.types import Context, Object
 
+from ..core.acting.fap_face import HEAD_TURNS
 from ..core.arrays import Progress
-from ..core.fap_face import HEAD_TURNS
 from ..core.mpeg4.arkit import ARKIT_NAMES
 from ..core.mpeg4.arkit_take import ArkitTake
 from ..core.mpeg4.conversions import low_level

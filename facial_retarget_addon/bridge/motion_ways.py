@@ -11,10 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 from bpy.types import Object
 
+from ..core.acting.expression_sets import expression_shapes
+from ..core.acting.fap_face import FapFace
 from ..core.arrays import FloatArray, Progress
 from ..core.errors import RetargetError
-from ..core.expression_sets import expression_shapes
-from ..core.fap_face import FapFace
 from ..core.mpeg4.arkit import ARKIT_NAMES
 from ..core.mpeg4.arkit_take import ArkitTake
 from ..fap_controls import CONTROLS, REACH

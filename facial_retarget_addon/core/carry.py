@@ -9,10 +9,10 @@ import scipy.sparse as sp
 
 from .arrays import FloatArray
 from .binding import Binding, apply_matrix
-from .example_residuals import spread_matrix
-from .normal_mesh import NormalMesh
+from .levels.normal_mesh import NormalMesh
 from .rigid import Similarity
 from .source_reader import SourceReader
+from .steering.residuals import spread_matrix
 
 Motion = Callable[[FloatArray], FloatArray]
 """Source frames (F, Vs, 3) float32 to target displacements (F, V, 3) float32, in target units."""

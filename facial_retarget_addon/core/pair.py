@@ -12,21 +12,21 @@ import numpy as np
 import scipy.sparse as sp
 
 from .arrays import FloatArray, IntArray, Progress, no_progress, unit_vectors
-from .base_mesh import BaseMesh, base_mesh
-from .base_refinement import inside_base, refine_base
-from .base_regions import eye_separation
+from .base.base_mesh import BaseMesh, base_mesh
+from .base.refinement import inside_base, refine_base
+from .base.regions import eye_separation
 from .binding import Binding, bind
 from .carry import LinearMotion, local_turns
-from .correspondence import Correspondence, correspond, places_on_source
+from .levels.normal_mesh import NormalLevel, NormalMesh, build_normal_mesh
+from .levels.subdivision import Level, hierarchy
+from .matching.correspondence import Correspondence, correspond, places_on_source
 from .mesh import TriMesh
 from .mpeg4.regions import OWN_PARTS
-from .normal_mesh import NormalLevel, NormalMesh, build_normal_mesh
 from .points import FeaturePoints, common_names, place_matrix
 from .problem import Problem
 from .raycast import CasterFactory
 from .rigid import Similarity, fit_similarity
 from .source_reader import SourceReader
-from .subdivision import Level, hierarchy
 
 _REACH = 0.5
 """Eye separations beyond the base's border over which its own motion fades into the carried one."""

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from .arrays import FloatArray
+from .levels.normal_mesh import NormalMesh
+from .levels.normal_synthesis import NormalSynthesis
 from .mesh import TriMesh
-from .normal_mesh import NormalMesh
-from .normal_synthesis import NormalSynthesis
-from .rbf import MultiquadricMaps
 from .source_reader import SourceReader
+from .steering.rbf import MultiquadricMaps
 
 
 class PaperMotion:

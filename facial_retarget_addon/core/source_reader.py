@@ -7,12 +7,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from .arrays import FloatArray
-from .base_mesh import BaseLoop
+from .base.base_mesh import BaseLoop
+from .levels.normal_mesh import NormalMesh, build_normal_mesh
+from .levels.subdivision import Level
 from .mesh import TriMesh
-from .normal_mesh import NormalMesh, build_normal_mesh
 from .points import FeaturePoints, place_matrix
 from .raycast import CasterFactory
-from .subdivision import Level
 
 
 class SourceReader:

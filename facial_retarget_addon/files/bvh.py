@@ -11,7 +11,7 @@ import numpy as np
 
 from ..core.arrays import FloatArray
 from ..core.errors import RetargetError
-from ..core.markers import MarkerTake
+from ..core.markers.take import MarkerTake
 from .marker_take import marker_take
 from .motion_text import read_motion_lines
 from .number_rows import Row, numbers, of_width, whole_number

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from ..core.acting.fap_face import FapFace
 from ..core.arrays import FloatArray, Progress, no_progress
-from ..core.fap_face import FapFace
 from .frames import FrameBlocks
 from .page import Figure, Section, html_page
 from .pictures import Image, png_bytes

@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 
+from ..core.acting.fap_face import HEAD_TURNS, FapFace
+from ..core.acting.moving_head import measure_moving_head
 from ..core.arrays import FloatArray, Progress, no_progress, progress_part
 from ..core.errors import RetargetError
-from ..core.fap_face import HEAD_TURNS, FapFace
-from ..core.moving_head import measure_moving_head
 from ..core.mpeg4.conversions import low_level, stream_of_values
 from .fap import add_fap
 from .fap_page import fap_page

@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import Any
 
 from ..core.errors import RetargetError
-from ..core.head_motion import FEWEST
-from ..core.marker_assignment import MarkerMap
+from ..core.markers.assignment import MarkerMap
+from ..core.markers.head_motion import FEWEST
 from ..core.mpeg4.faps import FAPS
 from .documents import Table, fault_sentence, json_bytes, read_json
 from .whole import write_whole

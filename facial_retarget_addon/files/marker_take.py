@@ -9,7 +9,7 @@ import numpy as np
 
 from ..core.arrays import FloatArray
 from ..core.errors import RetargetError
-from ..core.markers import MarkerTake
+from ..core.markers.take import MarkerTake
 from .number_rows import LARGEST
 
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from ..core.errors import RetargetError
-from ..core.markers import MarkerTake
+from ..core.markers.take import MarkerTake
 from .bvh import read_bvh
 from .c3d_markers import read_c3d
 from .marker_csv import read_marker_csv

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from ..core.acting.morph import Morph, morph_to_points
 from ..core.errors import RetargetError
-from ..core.morph import Morph, morph_to_points
 from .mesh_file import MeshFile
 from .meshes import read_mesh, write_mesh
 from .mpeg4_face import FapFaceFiles

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from ..core.errors import RetargetError
-from ..core.markers import MarkerTake
+from ..core.markers.take import MarkerTake
 from ..core.mpeg4.arkit_take import ArkitTake
 from ..core.mpeg4.stream import FapStream
 from .arkit_csv import arkit_take, has_arkit_names

@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Any
 
 from ..core.errors import RetargetError
-from ..core.marker_assignment import MarkerMap, by_name
-from ..core.marker_faps import marker_faps
-from ..core.marker_gaps import fill_gaps
-from ..core.markers import MarkerTake
+from ..core.markers.assignment import MarkerMap, by_name
+from ..core.markers.faps import marker_faps
+from ..core.markers.gaps import fill_gaps
+from ..core.markers.take import MarkerTake
 from ..core.mpeg4.arkit_take import ArkitTake
 from ..core.mpeg4.conversions import faps_of_arkit
 from ..core.mpeg4.stream import FapStream

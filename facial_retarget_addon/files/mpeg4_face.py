@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
+from ..core.acting.fap_face import FapFace, fit_fap_face
 from ..core.arrays import Progress, no_progress
 from ..core.errors import RetargetError
-from ..core.fap_face import FapFace, fit_fap_face
 from .mesh_file import MeshFile
 from .meshes import read_mesh
 from .points import read_points

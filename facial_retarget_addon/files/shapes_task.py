@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
+from ..core.acting.expression_sets import expression_shapes, still_shapes
 from ..core.arrays import FloatArray, Progress, no_progress, progress_part
 from ..core.errors import RetargetError
-from ..core.expression_sets import expression_shapes, still_shapes
 from ..core.mpeg4.sets import SETS
 from .fap_page import shapes_page
 from .mesh_file import MeshFile

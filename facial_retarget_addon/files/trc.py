@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..core.errors import RetargetError
-from ..core.markers import MarkerTake
+from ..core.markers.take import MarkerTake
 from .marker_take import marker_take
 from .motion_text import read_motion_lines
 from .number_rows import Row, numbers, of_width, whole_number

@@ -5,13 +5,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from facial_retarget_addon.core.base_insertion import insert_points
-from facial_retarget_addon.core.base_mesh import BaseMesh, base_mesh
-from facial_retarget_addon.core.base_triangulations import STANDARD, mirrored_name
+from facial_retarget_addon.core.base.base_mesh import BaseMesh, base_mesh
+from facial_retarget_addon.core.base.insertion import insert_points
+from facial_retarget_addon.core.base.manifold_part import manifold_part
+from facial_retarget_addon.core.base.placed_points import PlacedPoints
+from facial_retarget_addon.core.base.triangulations import STANDARD, mirrored_name
 from facial_retarget_addon.core.errors import RetargetError
-from facial_retarget_addon.core.manifold_part import manifold_part
 from facial_retarget_addon.core.mesh import TriMesh
-from facial_retarget_addon.core.placed_points import PlacedPoints
 from facial_retarget_addon.core.points import FeaturePoints
 from facial_retarget_addon.files.points import read_points
 

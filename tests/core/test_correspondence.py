@@ -5,13 +5,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from facial_retarget_addon.core.correspondence import correspond, places_on_source, predict_points
 from facial_retarget_addon.core.errors import RetargetError
+from facial_retarget_addon.core.matching.correspondence import correspond, places_on_source, predict_points
+from facial_retarget_addon.core.matching.smooth_warp import fit_smooth_warp
+from facial_retarget_addon.core.matching.surface_fill import HarmonicFill
 from facial_retarget_addon.core.mesh import TriMesh
 from facial_retarget_addon.core.points import FeaturePoints
 from facial_retarget_addon.core.rigid import fit_similarity
-from facial_retarget_addon.core.smooth_warp import fit_smooth_warp
-from facial_retarget_addon.core.surface_fill import HarmonicFill
 from facial_retarget_addon.files.points import read_points
 
 # A face of two units: parameters u across, v upwards; the mouth is a slit from (-0.35, -0.4) to (0.35, -0.4).

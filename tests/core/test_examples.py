@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.optimize import nnls
 
-from facial_retarget_addon.core.example_residuals import ExamplePairs, ExampleRegions, spread_matrix
-from facial_retarget_addon.core.examples import fit_example_weights, non_negative_least_squares
+from facial_retarget_addon.core.steering.examples import fit_example_weights, non_negative_least_squares
+from facial_retarget_addon.core.steering.residuals import ExamplePairs, ExampleRegions, spread_matrix
 
 
 @pytest.fixture

@@ -5,9 +5,9 @@ import pytest
 from scipy.spatial import cKDTree
 
 from facial_retarget_addon import demo
+from facial_retarget_addon.core.acting.expression_sets import expression_shapes, still_shapes
+from facial_retarget_addon.core.acting.fap_face import FapFace, fit_fap_face
 from facial_retarget_addon.core.errors import RetargetError
-from facial_retarget_addon.core.expression_sets import expression_shapes, still_shapes
-from facial_retarget_addon.core.fap_face import FapFace, fit_fap_face
 from facial_retarget_addon.core.mpeg4.recipes import mirrored
 from facial_retarget_addon.core.mpeg4.sets import SETS
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from facial_retarget_addon import demo
-from facial_retarget_addon.core.eyeballs import EYES, Eyeball, find_eyeballs, fit_sphere
-from facial_retarget_addon.core.eyelids import Lid, around_the_ball, find_lids, half_shut
+from facial_retarget_addon.core.acting.eyeballs import EYES, Eyeball, find_eyeballs, fit_sphere
+from facial_retarget_addon.core.acting.eyelids import Lid, around_the_ball, find_lids, half_shut
 from facial_retarget_addon.core.mesh import TriMesh
 from facial_retarget_addon.core.mpeg4.fdps import FDPS
 from facial_retarget_addon.core.mpeg4.head import head_axes

@@ -9,15 +9,15 @@ import pytest
 from scipy.spatial import cKDTree
 
 from facial_retarget_addon import demo
+from facial_retarget_addon.core.acting.eyeballs import EYES, Eyeball
+from facial_retarget_addon.core.acting.fap_face import FapFace, fit_fap_face
+from facial_retarget_addon.core.acting.point_deformer import fit_deformer
 from facial_retarget_addon.core.errors import RetargetError
-from facial_retarget_addon.core.eyeballs import EYES, Eyeball
-from facial_retarget_addon.core.fap_face import FapFace, fit_fap_face
 from facial_retarget_addon.core.mesh import TriMesh
 from facial_retarget_addon.core.mpeg4.conversions import recipe_matrix
 from facial_retarget_addon.core.mpeg4.faps import FAPS
 from facial_retarget_addon.core.mpeg4.fdps import FDPS
 from facial_retarget_addon.core.mpeg4.head_turn import head_angles, rotation_of_angles
-from facial_retarget_addon.core.point_deformer import fit_deformer
 from facial_retarget_addon.core.points import FeaturePoints
 from facial_retarget_addon.core.raycast import EmbreeCaster
 from facial_retarget_addon.files.points import read_points

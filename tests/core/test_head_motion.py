@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from facial_retarget_addon.core.errors import RetargetError
-from facial_retarget_addon.core.head_motion import HeadMotion, head_motion, rigid_markers
+from facial_retarget_addon.core.markers.head_motion import HeadMotion, head_motion, rigid_markers
 from facial_retarget_addon.core.mpeg4.head_turn import head_angles, rotation_of_angles
 
 RIGID = 8

@@ -6,11 +6,11 @@ import scipy.sparse as sp
 
 from facial_retarget_addon.core.binding import apply_matrix, bind
 from facial_retarget_addon.core.carry import BlendedMotion, LinearMotion, local_turns
-from facial_retarget_addon.core.level_gains import scale_levels
+from facial_retarget_addon.core.levels.level_gains import scale_levels
+from facial_retarget_addon.core.levels.subdivision import Level, hierarchy
 from facial_retarget_addon.core.mesh import TriMesh
 from facial_retarget_addon.core.quality import Quality
 from facial_retarget_addon.core.rigid import Similarity
-from facial_retarget_addon.core.subdivision import Level, hierarchy
 
 
 def sheet(side: int) -> TriMesh:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from facial_retarget_addon.core.errors import RetargetError
-from facial_retarget_addon.core.marker_assignment import UNMARKABLE, by_name, by_position
+from facial_retarget_addon.core.markers.assignment import UNMARKABLE, by_name, by_position
 from facial_retarget_addon.core.mpeg4.fdps import FDPS
 from facial_retarget_addon.core.mpeg4.mean_face import MEAN_FACE
 

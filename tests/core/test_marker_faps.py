@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from facial_retarget_addon.core.errors import RetargetError
-from facial_retarget_addon.core.marker_assignment import MarkerMap, by_name
-from facial_retarget_addon.core.marker_faps import marker_faps
-from facial_retarget_addon.core.marker_lips import OUTER, with_inner_lips
-from facial_retarget_addon.core.marker_motion import marker_displacements
-from facial_retarget_addon.core.markers import MarkerTake
+from facial_retarget_addon.core.markers.assignment import MarkerMap, by_name
+from facial_retarget_addon.core.markers.faps import marker_faps
+from facial_retarget_addon.core.markers.lips import OUTER, with_inner_lips
+from facial_retarget_addon.core.markers.motion import marker_displacements
+from facial_retarget_addon.core.markers.take import MarkerTake
 from facial_retarget_addon.core.mpeg4.channels import PointChannels
 from facial_retarget_addon.core.mpeg4.faps import FAPS
 from facial_retarget_addon.core.mpeg4.fapu import measure_fapu

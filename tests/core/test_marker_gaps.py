@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from facial_retarget_addon.core.errors import RetargetError
-from facial_retarget_addon.core.marker_gaps import fill_gaps
-from facial_retarget_addon.core.markers import MarkerTake
+from facial_retarget_addon.core.markers.gaps import fill_gaps
+from facial_retarget_addon.core.markers.take import MarkerTake
 
 
 def swinging(frames: int = 60) -> MarkerTake:

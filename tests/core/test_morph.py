@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from facial_retarget_addon import demo
+from facial_retarget_addon.core.acting.morph import morph_to_points
 from facial_retarget_addon.core.errors import RetargetError
-from facial_retarget_addon.core.morph import morph_to_points
 
 
 @pytest.fixture(scope="module")

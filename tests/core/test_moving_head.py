@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from facial_retarget_addon import demo
+from facial_retarget_addon.core.acting.fap_face import FapFace, fit_fap_face
+from facial_retarget_addon.core.acting.moving_head import measure_moving_head
 from facial_retarget_addon.core.errors import RetargetError
-from facial_retarget_addon.core.fap_face import FapFace, fit_fap_face
-from facial_retarget_addon.core.moving_head import measure_moving_head
 from facial_retarget_addon.core.mpeg4.fdps import FDPS
 from facial_retarget_addon.core.mpeg4.head_turn import rotation_of_angles
 

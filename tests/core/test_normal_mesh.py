@@ -5,16 +5,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from facial_retarget_addon.core.base_mesh import BaseMesh, base_mesh
+from facial_retarget_addon.core.base.base_mesh import BaseMesh, base_mesh
 from facial_retarget_addon.core.errors import RetargetError
+from facial_retarget_addon.core.levels.normal_mesh import NormalMesh, build_normal_mesh
+from facial_retarget_addon.core.levels.normal_synthesis import NormalSynthesis
+from facial_retarget_addon.core.levels.piercing import outliers, pierce
+from facial_retarget_addon.core.levels.subdivision import boundary_parameters, hierarchy
+from facial_retarget_addon.core.levels.vertex_neighbours import adjacency, mean_of_known, neighbour_median
 from facial_retarget_addon.core.mesh import TriMesh
-from facial_retarget_addon.core.normal_mesh import NormalMesh, build_normal_mesh
-from facial_retarget_addon.core.normal_synthesis import NormalSynthesis
-from facial_retarget_addon.core.piercing import outliers, pierce
 from facial_retarget_addon.core.points import FeaturePoints
 from facial_retarget_addon.core.raycast import EmbreeCaster
-from facial_retarget_addon.core.subdivision import boundary_parameters, hierarchy
-from facial_retarget_addon.core.vertex_neighbours import adjacency, mean_of_known, neighbour_median
 from facial_retarget_addon.files.points import read_points
 
 from .test_base_mesh import dome, spread

@@ -6,9 +6,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from facial_retarget_addon.core.acting.point_weights import point_weights
 from facial_retarget_addon.core.geodesic import shortcut_graph, surface_distances
 from facial_retarget_addon.core.mesh import TriMesh
-from facial_retarget_addon.core.point_weights import point_weights
 from facial_retarget_addon.core.points import FeaturePoints
 
 SIZE = 41

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from facial_retarget_addon.core.errors import RetargetError
-from facial_retarget_addon.core.rbf import fit_multiquadrics, merge_centres, multiquadric
+from facial_retarget_addon.core.steering.rbf import fit_multiquadrics, merge_centres, multiquadric
 
 
 @pytest.fixture

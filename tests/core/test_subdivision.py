@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from facial_retarget_addon.core.errors import RetargetError
+from facial_retarget_addon.core.levels.subdivision import boundary_parameters, hierarchy, loop
 from facial_retarget_addon.core.mesh import TriMesh
-from facial_retarget_addon.core.subdivision import boundary_parameters, hierarchy, loop
 
 
 def grid(width: int, height: int) -> np.ndarray:

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from facial_retarget_addon.cli import main
+from facial_retarget_addon.core.acting.fap_face import fit_fap_face
 from facial_retarget_addon.core.errors import Cancelled, RetargetError
-from facial_retarget_addon.core.fap_face import fit_fap_face
-from facial_retarget_addon.core.marker_assignment import MarkerMap
+from facial_retarget_addon.core.markers.assignment import MarkerMap
 from facial_retarget_addon.core.mpeg4.arkit import ARKIT_NAMES
 from facial_retarget_addon.core.mpeg4.arkit_take import ArkitTake
 from facial_retarget_addon.core.mpeg4.conversions import faps_of_arkit, low_level, stream_of_values

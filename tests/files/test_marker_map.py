@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from facial_retarget_addon.core.errors import RetargetError
-from facial_retarget_addon.core.marker_assignment import MarkerMap
+from facial_retarget_addon.core.markers.assignment import MarkerMap
 from facial_retarget_addon.files.marker_map import read_marker_map, write_marker_map
 
 WHOLE: dict[str, Any] = {

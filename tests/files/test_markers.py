@@ -11,7 +11,7 @@ import pytest
 from c3d import Writer
 
 from facial_retarget_addon.core.errors import RetargetError
-from facial_retarget_addon.core.markers import MarkerTake
+from facial_retarget_addon.core.markers.take import MarkerTake
 from facial_retarget_addon.files.markers import read_markers
 
 pytestmark = pytest.mark.filterwarnings("ignore:No analog data:UserWarning")

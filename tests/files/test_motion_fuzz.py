@@ -16,7 +16,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from facial_retarget_addon.core.errors import RetargetError
-from facial_retarget_addon.core.markers import MarkerTake
+from facial_retarget_addon.core.markers.take import MarkerTake
 from facial_retarget_addon.core.mpeg4.arkit_take import ArkitTake
 from facial_retarget_addon.core.mpeg4.stream import FapStream
 from facial_retarget_addon.files.arkit_csv import WEIGHTS, write_arkit_csv

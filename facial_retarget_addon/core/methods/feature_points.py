@@ -13,11 +13,13 @@ from typing import Any
 import numpy as np
 from scipy.spatial import cKDTree
 
+from ..acting.eyeballs import find_eyeballs
+from ..acting.eyelids import Lid, find_lids
+from ..acting.fap_face import FapFace, fit_fap_face
+from ..acting.point_deformer import PointDeformer, fit_deformer
 from ..arrays import FloatArray, IntArray, Progress, no_progress
 from ..errors import RetargetError
-from ..eyeballs import find_eyeballs
-from ..eyelids import Lid, find_lids
-from ..fap_face import FapFace, fit_fap_face
+from ..matching.smooth_warp import fit_smooth_warp
 from ..mesh import TriMesh
 from ..mpeg4.channels import PointChannels
 from ..mpeg4.faps import FAPS
@@ -25,10 +27,8 @@ from ..mpeg4.fapu import measure_fapu
 from ..mpeg4.fdps import FDPS
 from ..mpeg4.head import head_axes
 from ..mpeg4.regions import point_lengths
-from ..point_deformer import PointDeformer, fit_deformer
 from ..points import FeaturePoints, common_names
 from ..problem import Problem
-from ..smooth_warp import fit_smooth_warp
 from .settings import FeaturePointSettings
 
 ONE_WAY = [fap.number - 1 for fap in FAPS if fap.one_way]

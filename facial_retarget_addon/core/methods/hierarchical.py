@@ -17,12 +17,12 @@ from ..arrays import FloatArray, IntArray, Progress, no_progress
 from ..binding import apply_matrix
 from ..carry import BlendedMotion, Motion, PiercedMotion
 from ..errors import RetargetError
-from ..example_residuals import ExamplePairs, ExampleRegions, ExampleResiduals
-from ..level_gains import scale_fine, scale_levels
+from ..levels.level_gains import scale_fine, scale_levels
 from ..pair import Pair, prepare_pair
 from ..paper_motion import PaperMotion
 from ..problem import Problem
-from ..rbf import MultiquadricMaps, fit_multiquadrics
+from ..steering.rbf import MultiquadricMaps, fit_multiquadrics
+from ..steering.residuals import ExamplePairs, ExampleRegions, ExampleResiduals
 from .settings import HierarchicalSettings
 
 _STILL = 1e-6

@@ -1,0 +1,1 @@
+"""Faces that feature points move: weights, lids and eyes, FAPs in and frames out."""

@@ -1,0 +1,1 @@
+"""The base mesh that feature points span on both faces."""

@@ -1,0 +1,1 @@
+"""Levels of detail: subdivision, and the normal mesh that stands on it."""
