@@ -9,12 +9,12 @@ from .core.errors import RetargetError
 from .core.methods.settings import HierarchicalSettings
 from .demo import DemoFace, actor, performance, targets
 from .demo.fap_take import fap_take
-from .files.fap import write_fap
 from .files.fap_task import FapTask
 from .files.frames import write_frames
 from .files.job import ExampleFiles, FaceFiles, Job, OutputFiles, write_job
 from .files.mesh_file import MeshFile
 from .files.meshes import write_mesh
+from .files.motion.fap import write_fap
 from .files.mpeg4_face import FapFaceFiles
 from .files.points import write_points
 

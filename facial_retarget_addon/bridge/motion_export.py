@@ -15,8 +15,8 @@ from ..core.mpeg4.arkit import ARKIT_NAMES
 from ..core.mpeg4.arkit_take import ArkitTake
 from ..core.mpeg4.conversions import stream_of_values
 from ..core.mpeg4.faps import FAPS
-from ..files.arkit_csv import write_arkit_csv
-from ..files.fap import write_fap
+from ..files.motion.arkit_csv import write_arkit_csv
+from ..files.motion.fap import write_fap
 from .arkit_keys import find_arkit_keys
 from .background import Steps, part
 from .controls import has_controls, read_controls, shown_faps

@@ -13,8 +13,8 @@ from ..core.arrays import Progress
 from ..core.mpeg4.arkit import ARKIT_NAMES
 from ..core.mpeg4.arkit_take import ArkitTake
 from ..core.mpeg4.conversions import low_level
-from ..files.motion import read_motion
-from ..files.motion_stream import stream_of_motion
+from ..files.motion.read import read_motion
+from ..files.motion.stream import stream_of_motion
 from .arkit_keys import find_arkit_keys
 from .background import Steps, in_thread, part
 from .controls import has_controls

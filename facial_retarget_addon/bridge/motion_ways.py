@@ -18,8 +18,8 @@ from ..core.errors import RetargetError
 from ..core.mpeg4.arkit import ARKIT_NAMES
 from ..core.mpeg4.arkit_take import ArkitTake
 from ..fap_controls import CONTROLS, REACH
-from ..files.fap_report import mute_warnings
-from ..files.motion import Motion
+from ..files.motion.read import Motion
+from ..files.pages.fap_report import mute_warnings
 from .arkit_keys import find_arkit_keys
 from .background import Steps, in_thread
 from .bake import write_frames

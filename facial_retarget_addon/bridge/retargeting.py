@@ -11,7 +11,7 @@ from bpy.types import Context, PropertyGroup
 from ..core.arrays import FloatArray, Progress
 from ..core.problem import Problem
 from ..core.retarget import Result, retarget
-from ..files.report import report_json, report_page
+from ..files.pages.report import report_json, report_page
 from ..files.whole import written_whole
 from .background import Steps, in_thread, part
 from .bake import write_frames

@@ -15,14 +15,14 @@ from ..core.acting.moving_head import measure_moving_head
 from ..core.arrays import FloatArray, Progress, no_progress, progress_part
 from ..core.errors import RetargetError
 from ..core.mpeg4.conversions import low_level, stream_of_values
-from .fap import add_fap
-from .fap_page import fap_page
-from .fap_report import fap_table, mute_warnings
 from .frame_range import EVERY_FRAME, FrameRange
 from .frames import SUFFIXES, add_frames, read_frames
-from .motion_stream import read_stream
+from .motion.fap import add_fap
+from .motion.stream import read_stream
 from .mpeg4_face import FapFaceFiles, fit_face_files
-from .report import report_json
+from .pages.fap_page import fap_page
+from .pages.fap_report import fap_table, mute_warnings
+from .pages.report import report_json
 from .whole import Aside, overwritten, place_faults, written_whole
 
 _STREAM = ".fap"

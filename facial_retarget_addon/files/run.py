@@ -21,8 +21,8 @@ from .frames import add_frames, check_frames_place, read_frames
 from .job import FaceFiles, Job, read_job
 from .mesh_file import MeshFile
 from .meshes import read_mesh, read_positions
+from .pages.report import report_json, report_page
 from .points import read_points
-from .report import report_json, report_page
 from .whole import check_place, written_whole
 
 P = ParamSpec("P")

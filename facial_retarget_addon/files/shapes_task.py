@@ -14,12 +14,12 @@ from ..core.acting.expression_sets import expression_shapes, still_shapes
 from ..core.arrays import FloatArray, Progress, no_progress, progress_part
 from ..core.errors import RetargetError
 from ..core.mpeg4.sets import SETS
-from .fap_page import shapes_page
 from .mesh_file import MeshFile
 from .mpeg4_face import FapFaceFiles, fit_face_files
 from .npz import write_arrays
 from .obj import write_obj
-from .report import report_json
+from .pages.fap_page import shapes_page
+from .pages.report import report_json
 from .whole import Aside, overwritten, place_faults, written_whole
 
 _FOLDER_OF = ".obj"

@@ -9,9 +9,9 @@ import pytest
 
 from facial_retarget_addon.core.errors import RetargetError
 from facial_retarget_addon.core.mpeg4.arkit_take import ArkitTake
-from facial_retarget_addon.files.arkit_csv import WEIGHTS, read_arkit_csv, write_arkit_csv
-from facial_retarget_addon.files.motion_stream import read_stream
-from facial_retarget_addon.files.timecode import Clock, timecode_seconds
+from facial_retarget_addon.files.motion.arkit_csv import WEIGHTS, read_arkit_csv, write_arkit_csv
+from facial_retarget_addon.files.motion.stream import read_stream
+from facial_retarget_addon.files.motion.timecode import Clock, timecode_seconds
 
 RECORDINGS = {"alex_rom_3.csv": "livelink_alex_rom_3.npz", "jmtech.csv": "livelink_jmiller.npz"}
 PATH = Path("take.csv")

@@ -17,12 +17,12 @@ from facial_retarget_addon.core.mpeg4.arkit import ARKIT_NAMES
 from facial_retarget_addon.core.mpeg4.arkit_take import ArkitTake
 from facial_retarget_addon.core.mpeg4.conversions import faps_of_arkit, low_level, stream_of_values
 from facial_retarget_addon.core.mpeg4.stream import FapStream
-from facial_retarget_addon.files.arkit_csv import write_arkit_csv
-from facial_retarget_addon.files.fap import read_fap, write_fap
 from facial_retarget_addon.files.fap_task import FapTask, run_fap_task
 from facial_retarget_addon.files.frame_range import FrameRange
 from facial_retarget_addon.files.frames import read_frames
-from facial_retarget_addon.files.marker_map import write_marker_map
+from facial_retarget_addon.files.motion.arkit_csv import write_arkit_csv
+from facial_retarget_addon.files.motion.fap import read_fap, write_fap
+from facial_retarget_addon.files.motion.marker_map import write_marker_map
 from facial_retarget_addon.files.mpeg4_face import FapFaceFiles
 
 from .conftest import FaceOnDisk

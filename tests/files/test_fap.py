@@ -9,7 +9,7 @@ import pytest
 
 from facial_retarget_addon.core.errors import RetargetError
 from facial_retarget_addon.core.mpeg4.stream import FapStream
-from facial_retarget_addon.files.fap import read_fap, write_fap
+from facial_retarget_addon.files.motion.fap import read_fap, write_fap
 
 XFACE_TAKES = ("anger", "beg", "disgust", "fear", "happy_for", "hate", "joy", "pride")
 

@@ -8,7 +8,7 @@ import pytest
 
 from facial_retarget_addon.core.errors import RetargetError
 from facial_retarget_addon.core.markers.assignment import MarkerMap
-from facial_retarget_addon.files.marker_map import read_marker_map, write_marker_map
+from facial_retarget_addon.files.motion.marker_map import read_marker_map, write_marker_map
 
 WHOLE: dict[str, Any] = {
     "format": "facial-retarget/marker-map",

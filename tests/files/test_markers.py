@@ -12,7 +12,7 @@ from c3d import Writer
 
 from facial_retarget_addon.core.errors import RetargetError
 from facial_retarget_addon.core.markers.take import MarkerTake
-from facial_retarget_addon.files.markers import read_markers
+from facial_retarget_addon.files.motion.markers import read_markers
 
 pytestmark = pytest.mark.filterwarnings("ignore:No analog data:UserWarning")
 

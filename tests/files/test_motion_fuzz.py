@@ -19,10 +19,10 @@ from facial_retarget_addon.core.errors import RetargetError
 from facial_retarget_addon.core.markers.take import MarkerTake
 from facial_retarget_addon.core.mpeg4.arkit_take import ArkitTake
 from facial_retarget_addon.core.mpeg4.stream import FapStream
-from facial_retarget_addon.files.arkit_csv import WEIGHTS, write_arkit_csv
-from facial_retarget_addon.files.fap import write_fap
-from facial_retarget_addon.files.motion import read_motion
-from facial_retarget_addon.files.motion_text import LARGEST
+from facial_retarget_addon.files.motion.arkit_csv import WEIGHTS, write_arkit_csv
+from facial_retarget_addon.files.motion.fap import write_fap
+from facial_retarget_addon.files.motion.read import read_motion
+from facial_retarget_addon.files.motion.text import LARGEST
 
 from .test_arkit_csv import take
 from .test_fap import stream
@@ -223,7 +223,7 @@ def test_a_missing_c3d_package_is_a_bug_and_not_a_malformed_file(tmp_path):
 import sys
 sys.modules["c3d"] = None
 from pathlib import Path
-from facial_retarget_addon.files.motion import read_motion
+from facial_retarget_addon.files.motion.read import read_motion
 read_motion(Path({str(tmp_path / "take.c3d")!r}))
 """
     run = subprocess.run([sys.executable, "-c", program], cwd=Path(__file__).parents[2], capture_output=True, text=True)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from facial_retarget_addon.core.errors import RetargetError
-from facial_retarget_addon.files.pictures import BACKGROUND, Camera, contact_sheet, mark, png_bytes, shade
+from facial_retarget_addon.files.pages.pictures import BACKGROUND, Camera, contact_sheet, mark, png_bytes, shade
 
 
 def ball(rings=24, sides=48):

@@ -15,7 +15,7 @@ from facial_retarget_addon.core.mpeg4.conversions import low_level, stream_of_va
 from facial_retarget_addon.core.mpeg4.fdps import FDPS
 from facial_retarget_addon.core.mpeg4.head import head_axes
 from facial_retarget_addon.core.points import FeaturePoints
-from facial_retarget_addon.files.fap import read_fap, write_fap
+from facial_retarget_addon.files.motion.fap import read_fap, write_fap
 from facial_retarget_addon.files.points import read_points
 
 from .conftest import FaceOnDisk

@@ -11,8 +11,8 @@ import pytest
 
 from facial_retarget_addon.core.points import FeaturePoints
 from facial_retarget_addon.core.problem import Face, Problem
-from facial_retarget_addon.files.report import render, report_json, report_page
-from facial_retarget_addon.files.report_pictures import Moment, liveliest, moments
+from facial_retarget_addon.files.pages.report import render, report_json, report_page
+from facial_retarget_addon.files.pages.report_pictures import Moment, liveliest, moments
 
 from .conftest import bump, dome, dome_points
 

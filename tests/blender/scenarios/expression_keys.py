@@ -26,7 +26,7 @@ assert [key.name for key in keys] == ["Basis", *sets["expressions"]]
 assert make_shapes() == {"FINISHED"}
 assert [key.name for key in keys] == ["Basis", *sets["expressions"]]
 face = fitted(actor)
-shapes = part("core.expression_sets").expression_shapes(face, ("expressions",))
+shapes = part("core.acting.expression_sets").expression_shapes(face, ("expressions",))
 
 
 def shape(name: str) -> np.ndarray:
@@ -61,7 +61,7 @@ other.scale = (1, 2, -1)
 bpy.context.view_layer.update()
 make_shapes(sets={"arkit"})
 meshes = part("bridge.meshes")
-seen = part("core.expression_sets").expression_shapes(fitted(other), ("arkit",))["jawOpen"]
+seen = part("core.acting.expression_sets").expression_shapes(fitted(other), ("arkit",))["jawOpen"]
 flat = np.empty(3 * len(other.data.vertices), np.float32)
 other.data.shape_keys.key_blocks["jawOpen"].points.foreach_get("co", flat)
 np.testing.assert_allclose(meshes.to_face_space(other, flat.reshape(-1, 3)), seen, atol=1e-5)

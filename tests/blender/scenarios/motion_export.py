@@ -14,7 +14,7 @@ empty_scene()
 context = bpy.context
 scene = context.scene
 import_motion, export_motion = bpy.ops.facial_retarget.import_motion, bpy.ops.facial_retarget.export_motion
-conversions, fap, arkit_csv = part("core.mpeg4.conversions"), part("files.fap"), part("files.arkit_csv")
+conversions, fap, arkit_csv = part("core.mpeg4.conversions"), part("files.motion.fap"), part("files.motion.arkit_csv")
 faps = part("core.mpeg4.faps").FAPS
 rng = np.random.default_rng(3)
 values = np.zeros((COUNT, 68))

@@ -34,7 +34,7 @@ def wavy(count: int, seed: int) -> np.ndarray:
 
 def write_fap(name: str, values: np.ndarray) -> str:
     """A `.fap` file; returns its path."""
-    part("files.fap").write_fap(conversions.stream_of_values(name, FPS, values), folder / f"{name}.fap")
+    part("files.motion.fap").write_fap(conversions.stream_of_values(name, FPS, values), folder / f"{name}.fap")
     return str(folder / f"{name}.fap")
 
 
@@ -184,7 +184,7 @@ context.view_layer.objects.active = rig
 rig.shape_key_add(name="Basis", from_mix=False)
 weights = np.abs(np.sin(np.arange(COUNT)[:, None] + np.arange(52))) * 1.1
 take = part("core.mpeg4.arkit_take").ArkitTake("take", FPS, weights, None, None)
-part("files.arkit_csv").write_arkit_csv(take, folder / "take.csv")
+part("files.motion.arkit_csv").write_arkit_csv(take, folder / "take.csv")
 spelled = [f"{name[:-4]}_L" if name.endswith("Left") and name != "jawLeft" else name for name in arkit.ARKIT_NAMES]
 with refused("'rig'", "jawOpen", "no feature points"):
     import_motion(filepath=str(folder / "take.csv"))
@@ -207,7 +207,7 @@ with refused("'rig'", "'jawOpen'", "driver"):
 # What is missing is made from the points.
 context.view_layer.objects.active = actor
 import_motion(filepath=str(folder / "take.csv"), frame_start=START)
-shapes = part("core.expression_sets").expression_shapes(face, ("arkit",))
+shapes = part("core.acting.expression_sets").expression_shapes(face, ("arkit",))
 assert set(arkit.ARKIT_NAMES) <= set(names(actor))
 scene.frame_set(START + 4)
 summed = sum(
@@ -244,10 +244,10 @@ header = ["time", *(f"m{name}_{axis}" for name in face.known.names for axis in "
 rows = [[i / FPS, *("" if np.isnan(x) else repr(x) for x in row.ravel().tolist())] for i, row in enumerate(places)]
 lines = [",".join(map(str, row)) for row in (header, *rows)]
 (folder / "markers.csv").write_text("\n".join(lines) + "\n")
-marker_map = part("core.marker_assignment").MarkerMap(
+marker_map = part("core.markers.assignment").MarkerMap(
     {f"m{name}": name for name in face.known.names}, tuple(f"m{name}" for name in anchored)
 )
-part("files.marker_map").write_marker_map(marker_map, folder / "map.json")
+part("files.motion.marker_map").write_marker_map(marker_map, folder / "map.json")
 markers = {"filepath": str(folder / "markers.csv"), "marker_map": str(folder / "map.json"), "frame_start": START}
 with refused("'m8.3'", "hidden"):
     import_motion(**markers, gaps="refuse")

@@ -12,7 +12,7 @@ empty_scene()
 actor_face()
 values = np.full((3, 68), 100.0)
 values[:, :2] = 0
-part("files.fap").write_fap(part("core.mpeg4.conversions").stream_of_values("take", 24.0, values), path)
+part("files.motion.fap").write_fap(part("core.mpeg4.conversions").stream_of_values("take", 24.0, values), path)
 operators = bpy.ops.facial_retarget
 for operator, options in (
     (operators.make_shapes, {"sets": {"arkit"}}),

@@ -8,14 +8,14 @@ from pathlib import Path
 
 import numpy as np
 
-from ..core.arrays import BoolArray, IntArray
-from ..core.errors import RetargetError
-from ..core.mpeg4.faps import FAPS
-from ..core.mpeg4.stream import FapStream
-from .motion_text import read_motion_lines
+from ...core.arrays import BoolArray, IntArray
+from ...core.errors import RetargetError
+from ...core.mpeg4.faps import FAPS
+from ...core.mpeg4.stream import FapStream
+from ..whole import Aside, written_whole
 from .number_rows import LARGEST, Row, numbers, whole_number
 from .rates import checked_rate
-from .whole import Aside, written_whole
+from .text import read_motion_lines
 
 VERSION = "2.1"
 VISEME_MOST = (14, 14, 63, 1)

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ..core.arrays import FloatArray
-from ..core.errors import RetargetError
+from ...core.arrays import FloatArray
+from ...core.errors import RetargetError
 
 _FORM = re.compile(r"(\d{1,2}):(\d{1,2}):(\d{1,2})([:;])(\d{1,3}(?:\.\d{1,9})?)")
 _HALF_A_DAY = 12 * 3600.0

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from ..core.errors import RetargetError
-from ..core.markers.take import MarkerTake
-from ..core.mpeg4.arkit_take import ArkitTake
-from ..core.mpeg4.stream import FapStream
+from ...core.errors import RetargetError
+from ...core.markers.take import MarkerTake
+from ...core.mpeg4.arkit_take import ArkitTake
+from ...core.mpeg4.stream import FapStream
 from .arkit_csv import arkit_take, has_arkit_names
 from .bvh import read_bvh
 from .c3d_markers import read_c3d

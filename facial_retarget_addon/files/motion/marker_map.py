@@ -5,12 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from ..core.errors import RetargetError
-from ..core.markers.assignment import MarkerMap
-from ..core.markers.head_motion import FEWEST
-from ..core.mpeg4.faps import FAPS
-from .documents import Table, fault_sentence, json_bytes, read_json
-from .whole import write_whole
+from ...core.errors import RetargetError
+from ...core.markers.assignment import MarkerMap
+from ...core.markers.head_motion import FEWEST
+from ...core.mpeg4.faps import FAPS
+from ..documents import Table, fault_sentence, json_bytes, read_json
+from ..whole import write_whole
 
 FORMAT = "facial-retarget/marker-map"
 VERSION = 1

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ..core.arrays import FloatArray
-from ..core.errors import RetargetError
+from ...core.arrays import FloatArray
+from ...core.errors import RetargetError
 
 Row = tuple[int, Sequence[str]]
 """The number of a line, from 1, and its words."""

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from ..core.arrays import FloatArray
-from ..core.errors import RetargetError
-from ..core.markers.take import MarkerTake
+from ...core.arrays import FloatArray
+from ...core.errors import RetargetError
+from ...core.markers.take import MarkerTake
 from .number_rows import LARGEST
 
 

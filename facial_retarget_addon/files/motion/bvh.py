@@ -9,13 +9,13 @@ from pathlib import Path
 
 import numpy as np
 
-from ..core.arrays import FloatArray
-from ..core.errors import RetargetError
-from ..core.markers.take import MarkerTake
+from ...core.arrays import FloatArray
+from ...core.errors import RetargetError
+from ...core.markers.take import MarkerTake
 from .marker_take import marker_take
-from .motion_text import read_motion_lines
 from .number_rows import Row, numbers, of_width, whole_number
 from .rates import measured_rate
+from .text import read_motion_lines
 
 _CHANNEL = re.compile(r"([XYZ])(position|rotation)", re.IGNORECASE)
 

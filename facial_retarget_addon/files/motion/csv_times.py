@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..core.arrays import FloatArray, IntArray
-from ..core.errors import RetargetError
+from ...core.arrays import FloatArray, IntArray
+from ...core.errors import RetargetError
 from .csv_table import CsvRow, CsvTable
 from .number_rows import numbers
 from .rates import CONTRADICTION, check_gaps, check_growing, checked_rate, frames_of_times

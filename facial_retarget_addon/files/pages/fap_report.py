@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from ..core.arrays import BoolArray, FloatArray
-from ..core.mpeg4.faps import FAPS
+from ...core.arrays import BoolArray, FloatArray
+from ...core.mpeg4.faps import FAPS
 
 
 def fap_table(values: FloatArray, shown: BoolArray | None = None) -> list[dict[str, Any]]:

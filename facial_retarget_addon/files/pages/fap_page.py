@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from ..core.acting.fap_face import FapFace
-from ..core.arrays import FloatArray, Progress, no_progress
-from .frames import FrameBlocks
+from ...core.acting.fap_face import FapFace
+from ...core.arrays import FloatArray, Progress, no_progress
+from ..frames import FrameBlocks
 from .page import Figure, Section, html_page
 from .pictures import Image, png_bytes
 from .report_pictures import Portrait, liveliest

@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from ..core.arrays import FloatArray
-from ..core.errors import RetargetError
-from ..core.markers.take import MarkerTake
+from ...core.arrays import FloatArray
+from ...core.errors import RetargetError
+from ...core.markers.take import MarkerTake
 from .marker_take import marker_take
-from .motion_text import read_motion_bytes
 from .rates import checked_rate
+from .text import read_motion_bytes
 
 BLOCK = 512
 """Bytes; every part of a C3D file fills whole blocks."""

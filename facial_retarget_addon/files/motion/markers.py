@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from ..core.errors import RetargetError
-from ..core.markers.take import MarkerTake
+from ...core.errors import RetargetError
+from ...core.markers.take import MarkerTake
 from .bvh import read_bvh
 from .c3d_markers import read_c3d
 from .marker_csv import read_marker_csv

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ..core.errors import RetargetError
-from ..core.markers.take import MarkerTake
+from ...core.errors import RetargetError
+from ...core.markers.take import MarkerTake
 from .marker_take import marker_take
-from .motion_text import read_motion_lines
 from .number_rows import Row, numbers, of_width, whole_number
 from .rates import check_times, checked_rate
+from .text import read_motion_lines
 
 HEADER_LINES = 5
 """What the file is, names of settings, their values, names of the markers, X1 Y1 Z1 and so on."""

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ..core.errors import RetargetError
-from ..core.markers.take import MarkerTake
+from ...core.errors import RetargetError
+from ...core.markers.take import MarkerTake
 from .csv_table import CsvTable, read_csv_table
 from .csv_times import rows_timing
 from .marker_take import marker_take

@@ -6,7 +6,7 @@ import codecs
 from collections.abc import Callable
 from pathlib import Path
 
-from ..core.errors import RetargetError
+from ...core.errors import RetargetError
 
 LARGEST = 2**30
 """Bytes; hours of a hundred markers. A larger file is refused before it is read."""

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core.arrays import FloatArray
-from ..core.mesh import TriMesh
-from ..core.points import FeaturePoints
-from ..core.problem import Face, Problem
-from ..core.raycast import CasterFactory, EmbreeCaster
-from .frames import FrameBlocks
+from ...core.arrays import FloatArray
+from ...core.mesh import TriMesh
+from ...core.points import FeaturePoints
+from ...core.problem import Face, Problem
+from ...core.raycast import CasterFactory, EmbreeCaster
+from ..frames import FrameBlocks
 from .pictures import Camera, Image, mark, png_bytes, shade
 
 PICTURE_SIZE = (360, 360)

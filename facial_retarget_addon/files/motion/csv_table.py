@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
-from ..core.errors import RetargetError
-from .motion_text import read_motion_lines
+from ...core.errors import RetargetError
+from .text import read_motion_lines
 
 _SETTINGS = {
     "fps": "fps",

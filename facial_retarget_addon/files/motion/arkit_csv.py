@@ -8,17 +8,17 @@ from typing import Literal
 
 import numpy as np
 
-from ..core.arrays import FloatArray, IntArray
-from ..core.errors import RetargetError
-from ..core.mpeg4.arkit import ARKIT
-from ..core.mpeg4.arkit_take import ArkitTake
+from ...core.arrays import FloatArray, IntArray
+from ...core.errors import RetargetError
+from ...core.mpeg4.arkit import ARKIT
+from ...core.mpeg4.arkit_take import ArkitTake
+from ..documents import MOST_FAULTS
+from ..whole import write_whole
 from .csv_table import CsvRow, CsvTable, letters, read_csv_table
 from .csv_times import rows_timing
-from .documents import MOST_FAULTS
 from .number_rows import numbers
 from .rates import checked_rate, frames_of_times
 from .timecode import Clock, timecode_seconds
-from .whole import write_whole
 
 Gaps = Literal["fill", "keep"]
 """What happens where a recording left frames out: straight lines between its neighbours, or nothing."""

@@ -15,10 +15,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..core.arrays import FloatArray, IntArray, unit_vectors
-from ..core.errors import RetargetError
-from ..core.mesh import TriMesh
-from ..core.raycast import CasterFactory, EmbreeCaster, RayCaster
+from ...core.arrays import FloatArray, IntArray, unit_vectors
+from ...core.errors import RetargetError
+from ...core.mesh import TriMesh
+from ...core.raycast import CasterFactory, EmbreeCaster, RayCaster
 
 Image = npt.NDArray[np.uint8]
 

@@ -6,9 +6,9 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ..core.arrays import FloatArray
-from ..core.problem import Problem
-from .documents import json_bytes
+from ...core.arrays import FloatArray
+from ...core.problem import Problem
+from ..documents import json_bytes
 from .page import Figure, Section, html_page
 from .report_pictures import Moment, liveliest, moments
 

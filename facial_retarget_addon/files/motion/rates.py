@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ..core.arrays import FloatArray, IntArray
-from ..core.errors import RetargetError
+from ...core.arrays import FloatArray, IntArray
+from ...core.errors import RetargetError
 
 SLOWEST, FASTEST = 1.0, 10_000.0
 """Frames a second; anything else is a mistake."""

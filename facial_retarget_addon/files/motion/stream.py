@@ -6,16 +6,16 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from ..core.errors import RetargetError
-from ..core.markers.assignment import MarkerMap, by_name
-from ..core.markers.faps import marker_faps
-from ..core.markers.gaps import fill_gaps
-from ..core.markers.take import MarkerTake
-from ..core.mpeg4.arkit_take import ArkitTake
-from ..core.mpeg4.conversions import faps_of_arkit
-from ..core.mpeg4.stream import FapStream
+from ...core.errors import RetargetError
+from ...core.markers.assignment import MarkerMap, by_name
+from ...core.markers.faps import marker_faps
+from ...core.markers.gaps import fill_gaps
+from ...core.markers.take import MarkerTake
+from ...core.mpeg4.arkit_take import ArkitTake
+from ...core.mpeg4.conversions import faps_of_arkit
+from ...core.mpeg4.stream import FapStream
 from .marker_map import read_marker_map
-from .motion import Motion, read_motion
+from .read import Motion, read_motion
 
 
 def read_stream(

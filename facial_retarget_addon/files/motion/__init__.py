@@ -1,0 +1,1 @@
+"""Motion files: FAP streams, ARKit recordings, optical markers."""

@@ -1,0 +1,1 @@
+"""Reports: figures as JSON, pages to look at, and their pictures."""
