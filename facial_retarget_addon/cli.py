@@ -9,10 +9,14 @@ import argparse
 import sys
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from .core.arrays import Progress, no_progress
 from .core.errors import Cancelled, RetargetError
 from .terminal import clear, progress_on
+
+if TYPE_CHECKING:
+    from .files.mpeg4_face import FapFaceFiles
 
 BAD_INPUT = 2
 INTERRUPTED = 130
@@ -48,12 +52,14 @@ def _parser() -> argparse.ArgumentParser:
     _add_fap_arguments(fap)
     shapes = commands.add_parser("shapes", help="give a face the standard's shapes, from its feature points alone")
     _add_shapes_arguments(shapes)
+    markers = commands.add_parser("markers", help="begin a marker map: which marker sits on which feature point")
+    _add_markers_arguments(markers)
     morph = commands.add_parser("morph", help="make a generic head into another by its feature points alone")
     _add_morph_arguments(morph)
     demo = commands.add_parser("demo", help="write the built-in faces and their jobs, and do them")
     demo.add_argument("folder", type=Path, nargs="?", default=Path("demo"), help="where to (default: demo)")
     demo.set_defaults(command=_demo)
-    for command in (run, check, fap, shapes, morph, demo):
+    for command in (run, check, fap, shapes, markers, morph, demo):
         command.add_argument("--quiet", action="store_true", default=argparse.SUPPRESS, help="no progress")
     return parser
 
@@ -82,6 +88,14 @@ def _add_shapes_arguments(shapes: argparse.ArgumentParser) -> None:
     )
     _add_face_arguments(shapes, required=True)
     shapes.set_defaults(command=_shapes)
+
+
+def _add_markers_arguments(markers: argparse.ArgumentParser) -> None:
+    markers.add_argument("take", type=Path, help="markers (.trc .c3d .bvh .csv), neutral in the first frame")
+    markers.add_argument("--out", type=Path, required=True, help="the marker map (.json)")
+    markers.add_argument("--face", type=Path, help="a face to compare places with (.obj .ply .npz)")
+    markers.add_argument("--points", type=Path, help="its feature points (.json)")
+    markers.set_defaults(command=_markers)
 
 
 def _add_morph_arguments(morph: argparse.ArgumentParser) -> None:
@@ -124,17 +138,11 @@ def _check(arguments: argparse.Namespace) -> int:
 def _fap(arguments: argparse.Namespace) -> int:
     from .files.fap_task import FapTask, run_fap_task
     from .files.frame_range import FrameRange
-    from .files.mpeg4_face import FapFaceFiles
 
-    face = None
-    if arguments.face is not None and arguments.points is not None:
-        face = FapFaceFiles(arguments.face, arguments.points, arguments.variant)
-    elif arguments.face is not None or arguments.points is not None:
-        raise RetargetError("--face and --points go together, but one of them is missing")
     task = FapTask(
         arguments.motion,
         arguments.out,
-        face,
+        _optional_face(arguments, arguments.variant),
         missing=arguments.missing,
         gaps=arguments.gaps,
         marker_map=arguments.map,
@@ -145,6 +153,29 @@ def _fap(arguments: argparse.Namespace) -> int:
         page=arguments.page,
     )
     _warn(run_fap_task(task, _progress(arguments))["warnings"])
+    return 0
+
+
+def _optional_face(arguments: argparse.Namespace, variant: str = "default") -> FapFaceFiles | None:
+    from .files.mpeg4_face import FapFaceFiles
+
+    if (arguments.face is None) != (arguments.points is None):
+        raise RetargetError("--face and --points go together, but one of them is missing")
+    return None if arguments.face is None else FapFaceFiles(arguments.face, arguments.points, variant)
+
+
+def _markers(arguments: argparse.Namespace) -> int:
+    from .files.markers_task import run_markers_task
+
+    begun = run_markers_task(arguments.take, arguments.out, _optional_face(arguments))
+    for marker, point in begun.placed.items():
+        _complain(f"warning: {marker} is put on {point} by its place alone: check it")
+    open_ones = [
+        name for name in (*begun.named.unknown, *sum(begun.named.doubtful.values(), ())) if name not in begun.placed
+    ]
+    if open_ones:
+        _complain(f"warning: markers without a point, to be added by hand: {', '.join(open_ones)}")
+    print(f"{arguments.out}: {len(begun.marker_map.points)} markers")
     return 0
 
 
