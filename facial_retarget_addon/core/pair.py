@@ -158,14 +158,6 @@ class Pair:
                 zip(self.source_normal.levels, self.target_normal.levels, strict=True)
             )
         ]
-        still = [
-            {"vertices": len(component), "first_vertex": int(component[0])}
-            for component in self.correspondence.still_components
-        ]
-        warnings = list(self.base.warnings)
-        if still:
-            total = sum(part["vertices"] for part in still)
-            warnings.append(f"{len(still)} parts of the target ({total} vertices) hold no feature point and stay put")
         return {
             "source": {"vertices": len(self.source.vertices), "faces": len(self.source.faces)},
             "target": {"vertices": len(self.target.vertices), "faces": len(self.target.faces)},
@@ -178,8 +170,7 @@ class Pair:
             "coverage": float(areas @ covered / areas.sum()),
             "matched": float(areas @ (self.correspondence.confidence > 0) / areas.sum()),
             "levels": levels,
-            "still_components": still,
-            "warnings": warnings,
+            "warnings": list(self.base.warnings),
         }
 
 

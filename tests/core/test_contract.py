@@ -213,13 +213,19 @@ def test_examples_that_are_not_used_are_named(method: str, problem: Problem) -> 
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_eyes_and_teeth_stay_put_and_are_named(method: str, problem: Problem, frames: np.ndarray) -> None:
+def test_eyes_and_upper_teeth_stay_put_and_are_named(method: str, problem: Problem, frames: np.ndarray) -> None:
     run = retarget(method, problem, settings_of(method, QUICK[method]), frames)
-    still = sum(part["vertices"] for part in run.report["still_components"])
-    assert still > 0
+    still = run.report["still_components"]
     assert any("stay put" in warning for warning in run.report["warnings"])
-    moved = np.abs(run.frames - problem.target.mesh.vertices.astype(np.float32)).max(axis=(0, 2))
-    assert (moved == 0).sum() >= still
+    mesh = problem.target.mesh
+    moved = np.abs(run.frames - mesh.vertices.astype(np.float32)).max(axis=(0, 2))
+    stays = np.isin(mesh.components, [mesh.components[part["first_vertex"]] for part in still])
+    assert stays.sum() == sum(part["vertices"] for part in still)
+    assert (moved[stays] == 0).all()
+    does = {row["kind"]: row["does"] for row in run.report["parts"]}
+    assert set(does) == {"eyeball", "upper part of the mouth", "behind the mouth"}
+    assert set(does.values()) == {"stays"}
+    assert len(still) == 4
 
 
 @pytest.mark.parametrize("method", METHODS)

@@ -20,6 +20,7 @@ from ..mpeg4.fdps import FDPS
 from ..mpeg4.head import head_axes
 from ..mpeg4.head_turn import rotation_of_angles
 from ..mpeg4.mean_face import place_missing
+from ..parts.acting_parts import with_parts
 from ..points import FeaturePoints
 from .eyeballs import Eyeball
 from .point_deformer import PointDeformer, fit_deformer
@@ -71,6 +72,11 @@ class FapFace:
         self.known = known
         self._moving = np.flatnonzero(self._motion.acting.ravel())
         self._eyes = [eye for eye in self.deformer.eyeballs.values() if len(eye.vertices)]
+        self._parts: list[dict[str, Any]] = []
+        if variant == "default":
+            turning = np.zeros(len(mesh.vertices), bool)
+            turning[[vertex for eye in self._eyes for vertex in eye.vertices]] = True
+            self.deformer, self._parts = with_parts(mesh, known, self.deformer, turning)
         self.playable = self._playable()
         self.measurable: BoolArray = self._motion.measurable
         self.channels = self._names()
@@ -140,6 +146,7 @@ class FapFace:
             "fapu": {unit: self.fapu.length(unit) for unit in ("IRISD", "ES", "ENS", "MNS", "MW")},
             "fapu_taken": self.fapu.taken,
             "eyeballs": [eye.side for eye in self._eyes],
+            "parts": self._parts,
             "faps_without_points": still,
             "weights_per_vertex": self._basis.nnz / max(len(self.mesh.vertices), 1),
             "warnings": list(self.deformer.warnings),

@@ -27,6 +27,8 @@ from ..mpeg4.fapu import measure_fapu
 from ..mpeg4.fdps import FDPS
 from ..mpeg4.head import head_axes
 from ..mpeg4.regions import point_lengths
+from ..parts.acting_parts import moved_vertices, with_parts
+from ..parts.report import still_components
 from ..points import FeaturePoints, common_names
 from ..problem import Problem
 from .settings import FeaturePointSettings
@@ -85,13 +87,12 @@ class FeaturePointRetargeter:
         warnings = [*self._motion.warnings]
         if self._problem.source.examples:
             warnings.append("examples are not used by this method")
-        moved = set(np.unique(self._motion.deformer.matrix.nonzero()[0] // 3).tolist())
-        for eye in self._motion.deformer.eyeballs.values():
-            moved |= set(eye.vertices.tolist()) if isinstance(self._motion, _FapMotion) else set()
-        still = _still_components(self._target, moved)
-        if still:
-            total = sum(part["vertices"] for part in still)
-            warnings.append(f"{len(still)} parts of the target ({total} vertices) hold no feature point and stay put")
+        moves = moved_vertices(self._motion.deformer)
+        if isinstance(self._motion, _FapMotion):
+            for eye in self._motion.deformer.eyeballs.values():
+                moves[eye.vertices] = True
+        still, named = still_components(self._target, moves)
+        warnings += named
         return {
             "source": {"vertices": len(self._source.vertices), "faces": len(self._source.faces)},
             "target": {"vertices": len(self._target.vertices), "faces": len(self._target.faces)},
@@ -142,7 +143,10 @@ class _FapMotion:
         self._face: FapFace = fit_fap_face(target, target_points, settings.variant)
         self.deformer = self._face.deformer
         self.warnings = self._face.report["warnings"]
-        self.report = {"fapu": {"source": fapu.taken, "target": self._face.fapu.taken}}
+        self.report = {
+            "fapu": {"source": fapu.taken, "target": self._face.fapu.taken},
+            "parts": self._face.report["parts"],
+        }
 
     def frames(self, displacements: FloatArray) -> FloatArray:
         """Target positions (F, Vt, 3) of displacements (F, P, 3) of the source's points."""
@@ -170,10 +174,14 @@ class _FreeMotion:
         self._scale = lengths[1] / lengths[0]
         acting = np.ones((len(names), 3), bool)
         self.deformer: PointDeformer = fit_deformer(target, target_points, self._axes[1], acting, settings.variant)
+        parts: list[dict[str, Any]] = []
+        if settings.variant == "default":
+            nothing = np.zeros(len(target.vertices), bool)
+            self.deformer, parts = with_parts(target, target_points, self.deformer, nothing)
         self._lids = _lid_pairs(source, source_points, self._axes[0], self.deformer.lids)
         self._neutral = target.vertices.astype(np.float32)
         self.warnings = list(self.deformer.warnings)
-        self.report = {"fapu": {"source": fapus[0].taken, "target": fapus[1].taken}}
+        self.report = {"fapu": {"source": fapus[0].taken, "target": fapus[1].taken}, "parts": parts}
 
     def frames(self, displacements: FloatArray) -> FloatArray:
         """Target positions (F, Vt, 3) of displacements (F, P, 3) of the source's points."""
@@ -194,14 +202,3 @@ def _lid_pairs(
     """The row of each lid's middle, and the lid on the source and on the target."""
     ours = {lid.middle: lid for lid in find_lids(source, points, find_eyeballs(source, points, axes))}
     return [(int(points.index([lid.middle])[0]), ours[lid.middle], lid) for lid in lids if lid.middle in ours]
-
-
-def _still_components(mesh: TriMesh, moved: set[int]) -> list[dict[str, int]]:
-    """Components of which no vertex follows a point."""
-    follows = np.zeros(len(mesh.vertices), bool)
-    follows[list(moved)] = True
-    count = mesh.components.max() + 1
-    still = np.bincount(mesh.components, follows, count) == 0
-    size = np.bincount(mesh.components, minlength=count)
-    first = np.unique(mesh.components, return_index=True)[1]
-    return [{"vertices": int(size[k]), "first_vertex": int(first[k])} for k in np.flatnonzero(still)]

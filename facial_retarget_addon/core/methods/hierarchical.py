@@ -20,6 +20,8 @@ from ..errors import RetargetError
 from ..levels.level_gains import scale_fine, scale_levels
 from ..pair import Pair, prepare_pair
 from ..paper_motion import PaperMotion
+from ..parts.carried_parts import CarriedParts, carried_parts
+from ..parts.report import still_components
 from ..problem import Problem
 from ..steering.rbf import MultiquadricMaps, fit_multiquadrics
 from ..steering.residuals import ExamplePairs, ExampleRegions, ExampleResiduals
@@ -49,6 +51,7 @@ class HierarchicalRetargeter:
     make_fine_motion : gives the motion of the target's finest level, made when it is first asked for.
     residuals : what the examples add; None without any.
     figures : of the examples, for the report.
+    parts : what follows the skin; None for nothing.
     """
 
     def __init__(
@@ -58,9 +61,10 @@ class HierarchicalRetargeter:
         make_fine_motion: Callable[[], Motion],
         residuals: ExampleResiduals | None,
         figures: list[dict[str, Any]],
+        parts: CarriedParts | None = None,
     ) -> None:
         self._pair, self._motion, self._make_fine_motion = pair, motion, make_fine_motion
-        self._residuals, self._figures = residuals, figures
+        self._residuals, self._figures, self._parts = residuals, figures, parts
         self._source = pair.source.vertices.astype(np.float32)
         self._target = pair.target.vertices.astype(np.float32)
         self._base = pair.source_points.matrix(len(self._source)).astype(np.float32)
@@ -68,7 +72,18 @@ class HierarchicalRetargeter:
     @cached_property
     def report(self) -> Mapping[str, Any]:
         """Figures of the fit, as plain data."""
-        return {**self._pair.report(), "examples": self._figures}
+        report = self._pair.report()
+        moves = self._pair.correspondence.face >= 0
+        if self._parts is not None:
+            moves[self._parts.following.riders] = True
+        still, named = still_components(self._pair.target, moves)
+        return {
+            **report,
+            "parts": self._parts.rows if self._parts is not None else [],
+            "still_components": still,
+            "examples": self._figures,
+            "warnings": report["warnings"] + named,
+        }
 
     @property
     def counterpart(self) -> IntArray:
@@ -79,6 +94,8 @@ class HierarchicalRetargeter:
         """Target positions (F, Vt, 3) float32 of source frames (F, Vs, 3)."""
         frames = self._checked(source)
         moved = self._steered(frames, self._motion(frames))
+        if self._parts is not None:
+            moved = self._parts.following.add_to(moved)
         moved += self._target
         return moved
 
@@ -121,8 +138,10 @@ def fit(problem: Problem, settings: HierarchicalSettings, progress: Progress = n
     pair = prepare_pair(problem, settings.levels, settings.base_points, lambda share, what: progress(0.9 * share, what))
     examples = read_examples(problem, pair)
     progress(0.9, "preparing the motion")
-    variant = _paper if settings.variant == "paper" else _default
-    retargeter = variant(pair, settings, examples)
+    if settings.variant == "paper":
+        retargeter = _paper(pair, settings, examples)
+    else:
+        retargeter = _default(pair, settings, examples, _parts(problem, pair, examples))
     progress(1.0, "fitted")
     return retargeter
 
@@ -160,7 +179,9 @@ def read_examples(problem: Problem, pair: Pair) -> list[Example]:
 # ---- the default variant ------------------------------------------------------------------------
 
 
-def _default(pair: Pair, settings: HierarchicalSettings, examples: list[Example]) -> HierarchicalRetargeter:
+def _default(
+    pair: Pair, settings: HierarchicalSettings, examples: list[Example], parts: CarriedParts
+) -> HierarchicalRetargeter:
     gains = [settings.gain(level) for level in range(settings.levels + 1)]
     local = settings.frames == "local"
     matrix = pair.carry
@@ -179,7 +200,15 @@ def _default(pair: Pair, settings: HierarchicalSettings, examples: list[Example]
     if settings.read == "pierce":
         motion = BlendedMotion(fine_motion(), pair.binding, motion)
     residuals, figures = _steering(pair, examples, motion, settings.example_strength)
-    return HierarchicalRetargeter(pair, motion, fine_motion, residuals, figures)
+    return HierarchicalRetargeter(pair, motion, fine_motion, residuals, figures, parts)
+
+
+def _parts(problem: Problem, pair: Pair, examples: list[Example]) -> CarriedParts:
+    """The parts that follow the target's skin; those that an example moves are left to the examples."""
+    own = np.zeros(len(pair.target.vertices), bool)
+    for example in examples:
+        own |= np.abs(example.target).max(axis=1) > _STILL * pair.target_separation
+    return carried_parts(pair.target, problem.target.points, own)
 
 
 def _steering(

@@ -1,0 +1,56 @@
+"""What the parts of a head do, as plain data."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from ..arrays import BoolArray
+from ..mesh import TriMesh
+from .find import AROUND_EYE, BEARD, BOTH, BROW, LOWER, MOUSTACHE, Part
+
+FOLLOWS = {
+    AROUND_EYE: "rides on the skin of the lids",
+    BROW: "rides on the skin",
+    MOUSTACHE: "rides on the skin",
+    BEARD: "rides on the skin",
+    LOWER: "goes with the chin",
+    BOTH: "its lower half goes with the chin",
+}
+"""Kind of part -> how it follows, when it does."""
+
+
+def part_rows(parts: Sequence[Part], follows: BoolArray, own: BoolArray) -> list[dict[str, Any]]:
+    """What each kind of part does and how it was known; parts that are alike in all this are one row.
+
+    Parameters
+    ----------
+    follows : (V,) vertices that follow the skin.
+    own : (V,) vertices that have motion of their own.
+    """
+    rows: dict[tuple[str, str, str], list[int]] = {}
+    for part in parts:
+        does = "stays"
+        if own[part.vertices].any():
+            does = "has motion of its own"
+        elif follows[part.vertices].any():
+            does = FOLLOWS[part.kind]
+        rows.setdefault((part.kind, does, part.reason), []).append(len(part.vertices))
+    return [
+        {"kind": kind, "parts": len(sizes), "vertices": sum(sizes), "does": does, "reason": reason}
+        for (kind, does, reason), sizes in rows.items()
+    ]
+
+
+def still_components(mesh: TriMesh, moves: BoolArray) -> tuple[list[dict[str, int]], list[str]]:
+    """Components of which no vertex moves, (V,), and the warning that names them, if there are any."""
+    count = mesh.components.max() + 1
+    still = np.bincount(mesh.components, moves, count) == 0
+    size = np.bincount(mesh.components, minlength=count)
+    first = np.unique(mesh.components, return_index=True)[1]
+    found = [{"vertices": int(size[k]), "first_vertex": int(first[k])} for k in np.flatnonzero(still)]
+    total = sum(part["vertices"] for part in found)
+    warning = f"{len(found)} parts of the target ({total} vertices) hold no feature point and stay put"
+    return found, [warning] if found else []

@@ -1,0 +1,342 @@
+"""Lashes ride on their lids, lower teeth go with the chin, upper teeth stay: the parts of one mesh."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from facial_retarget_addon.core.acting.eyeballs import find_eyeballs
+from facial_retarget_addon.core.acting.fap_face import FapFace, fit_fap_face
+from facial_retarget_addon.core.closest_point import SurfaceFinder
+from facial_retarget_addon.core.mesh import TriMesh
+from facial_retarget_addon.core.methods.base import fit
+from facial_retarget_addon.core.methods.settings import HierarchicalSettings
+from facial_retarget_addon.core.mpeg4.fdps import FDPS
+from facial_retarget_addon.core.mpeg4.head import head_axes
+from facial_retarget_addon.core.parts.carried_parts import carried_parts
+from facial_retarget_addon.core.parts.find import (
+    ACROSS,
+    AROUND_EYE,
+    BOTH,
+    BROW,
+    EYEBALL,
+    LOWER,
+    OTHER,
+    UPPER,
+    Part,
+    find_parts,
+)
+from facial_retarget_addon.core.parts.follow import Following, fit_following
+from facial_retarget_addon.core.points import FeaturePoints
+from facial_retarget_addon.core.problem import Face, Problem
+from facial_retarget_addon.files.points import read_points
+
+TRUTH = {
+    "sclera_L": {EYEBALL},
+    "iris_L": {EYEBALL},
+    "sclera_R": {EYEBALL},
+    "iris_R": {EYEBALL},
+    "eye_L": {EYEBALL},
+    "eye_R": {EYEBALL},
+    **{f"{what}_{side}": {AROUND_EYE} for what in ("lashes", "lacrimal", "eyeocc", "eyeblend") for side in "LR"},
+    "teeth": {UPPER, LOWER},
+    "teeth_upper": {UPPER},
+    "teeth_lower": {LOWER},
+    "tongue": {LOWER},
+    "gums_tongue": {BOTH},
+}
+"""Name that an artist gave -> kinds that it may be; gums and tongue of the one head are welded."""
+
+
+class Head:
+    """A real head with its artist's part names."""
+
+    def __init__(self, folder: Path, name: str) -> None:
+        short = name.split("_")[0] if name != "male_adult_08" else name
+        archive = np.load(folder / f"{name}.npz")
+        self.mesh = TriMesh(archive["vertices"], archive["tris"])
+        points = read_points(folder / f"{short}_points.json", self.mesh)
+        self.all_points = points
+        self.points = points.subset([name for name in points.names if name in FDPS])
+        self.names = archive["part_names"][archive["vert_part"]]
+        self.moves = dict(zip(archive["expr_names"].tolist(), archive["expr_delta"], strict=True))
+        self.parts = parts_of(self.mesh, self.points)
+
+    def vertices(self, kind: str) -> np.ndarray:
+        return np.concatenate([part.vertices for part in self.parts if part.kind == kind])
+
+
+def axes_of(mesh: TriMesh, points: FeaturePoints) -> np.ndarray:
+    return head_axes(points.names, points.positions(mesh.vertices))
+
+
+def parts_of(mesh: TriMesh, points: FeaturePoints) -> tuple[Part, ...]:
+    axes = axes_of(mesh, points)
+    return find_parts(mesh, points, axes, find_eyeballs(mesh, points, axes))
+
+
+@pytest.fixture(scope="module")
+def ict(shared_data: Path) -> Head:
+    return Head(shared_data, "ict_dev")
+
+
+@pytest.fixture(scope="module")
+def makehuman(shared_data: Path) -> Head:
+    return Head(shared_data, "makehuman_dev")
+
+
+@pytest.fixture(scope="module", params=["ict", "makehuman"])
+def head(request: pytest.FixtureRequest) -> Head:
+    return request.getfixturevalue(request.param)
+
+
+@pytest.fixture(scope="module")
+def following(makehuman: Head) -> Following:
+    return fit_following(makehuman.mesh, makehuman.points, axes_of(makehuman.mesh, makehuman.points), makehuman.parts)
+
+
+@pytest.fixture(scope="module")
+def playing(ict: Head) -> FapFace:
+    return fit_fap_face(ict.mesh, ict.points)
+
+
+def faps(**values: float) -> np.ndarray:
+    """One frame of FAPs, such as fap_19=1024."""
+    frame = np.zeros((1, 68))
+    for name, value in values.items():
+        frame[0, int(name.removeprefix("fap_")) - 1] = value
+    return frame
+
+
+def skin_motion(head: Head, rng: np.random.Generator) -> np.ndarray:
+    moved = rng.normal(size=(3, *head.mesh.vertices.shape))
+    moved[:, head.mesh.components != head.mesh.components[head.points.vertices[0, 0]]] = 0.0
+    return moved
+
+
+# ---- finding ------------------------------------------------------------------------------------
+
+
+def test_every_part_of_a_real_head_is_what_its_artist_called_it(head: Head) -> None:
+    assert len(head.parts) > 6
+    for part in head.parts:
+        assert part.kind in set.intersection(*(TRUTH[name] for name in np.unique(head.names[part.vertices])))
+    parts = np.sort(np.concatenate([part.vertices for part in head.parts]))
+    skin = head.mesh.components == head.mesh.components[head.points.vertices[0, 0]]
+    np.testing.assert_array_equal(parts, np.flatnonzero(~skin))
+
+
+def test_each_tooth_is_in_its_row(ict: Head) -> None:
+    teeth = [part for part in ict.parts if part.kind in (UPPER, LOWER)]
+    assert len(teeth) == 32
+    falls = [np.linalg.norm(ict.moves["jawOpen"][part.vertices], axis=1).mean() for part in teeth]
+    assert [part.kind == LOWER for part in teeth] == [fall > 0.1 for fall in falls]
+
+
+def test_hair_on_the_head_is_not_hair_on_the_face(shared_data: Path) -> None:
+    head = Head(shared_data, "male_adult_08")
+    assert {part.kind for part in head.parts} == {EYEBALL, OTHER}
+    assert set(head.names[head.vertices(OTHER)]) == {"m014_opacity"}
+
+
+def test_without_chin_and_brows_nothing_is_known(makehuman: Head) -> None:
+    few = makehuman.points.subset(["3.1", "8.3", "8.4", "9.3"])
+    parts = find_parts(makehuman.mesh, few, np.eye(3), {})
+    assert {part.kind for part in parts} == {OTHER}
+    assert len(carried_parts(makehuman.mesh, few, np.zeros(len(makehuman.mesh.vertices), bool)).following.riders) == 0
+
+
+def with_component(head: Head, vertices: np.ndarray, faces: np.ndarray) -> TriMesh:
+    count = len(head.mesh.vertices)
+    return TriMesh(np.concatenate([head.mesh.vertices, vertices]), np.concatenate([head.mesh.faces, count + faces]))
+
+
+CARD = np.array([[-1.0, -0.2, 0.0], [1.0, -0.2, 0.0], [1.0, 0.2, 0.0], [-1.0, 0.2, 0.0]])
+CARD_FACES = np.array([[0, 1, 2], [0, 2, 3]])
+
+
+def test_a_card_on_the_brow_rides_on_it(makehuman: Head) -> None:
+    brow = makehuman.points.subset(["4.3"]).positions(makehuman.mesh.vertices)[0]
+    mesh = with_component(makehuman, brow + [0.0, 0.0, 0.03] + 0.04 * CARD, CARD_FACES)
+    last = parts_of(mesh, makehuman.points)[-1]
+    assert last.kind == BROW
+    faces = fit_fap_face(mesh, makehuman.points).frames(faps(fap_33=300))
+    risen = (faces[0] - mesh.vertices)[last.vertices]
+    there = makehuman.points.subset(["4.3"]).positions((faces[0] - mesh.vertices)[None])[0, 0]
+    assert there[1] > 0
+    np.testing.assert_allclose(risen.mean(axis=0), there, atol=0.3 * np.linalg.norm(there))
+
+
+def test_vertices_without_faces_are_no_teeth(makehuman: Head) -> None:
+    bare = TriMesh(makehuman.mesh.vertices, makehuman.mesh.faces[makehuman.names[makehuman.mesh.faces[:, 0]] == "skin"])
+    parts = parts_of(bare, makehuman.points)
+    assert [part.kind for part in parts] == [OTHER]
+    np.testing.assert_array_equal(parts[0].vertices, np.flatnonzero(makehuman.names != "skin"))
+
+
+def test_teeth_with_points_are_told_by_them(makehuman: Head) -> None:
+    lower = np.flatnonzero(makehuman.names == "teeth_lower")
+    for names, kind in ((("9.8", "9.10"), UPPER), (("9.8", "9.11"), BOTH)):
+        on_teeth = FeaturePoints(names, np.repeat(lower[:2, None], 3, axis=1), np.tile([1.0, 0.0, 0.0], (2, 1)))
+        parts = parts_of(makehuman.mesh, makehuman.points.joined(on_teeth))
+        found = next(part for part in parts if lower[0] in part.vertices)
+        assert found.kind == kind
+
+
+def test_a_sheet_behind_a_mouth_without_lower_teeth_stays(makehuman: Head) -> None:
+    mesh, names = makehuman.mesh, makehuman.names
+    gone = np.isin(names, ["teeth_lower", "tongue"])
+    lips = makehuman.points.subset(["2.2"]).positions(mesh.vertices)[0]
+    sheet = lips + [0.0, 0.0, -0.4] + np.array([0.2, 0.9, 1.0]) * CARD
+    bare = TriMesh(mesh.vertices, mesh.faces[~gone[mesh.faces[:, 0]]])
+    both = TriMesh(
+        np.concatenate([bare.vertices, sheet]), np.concatenate([bare.faces, len(bare.vertices) + CARD_FACES])
+    )
+    part = parts_of(both, makehuman.points)[-1]
+    assert part.kind == ACROSS
+    frames = fit_fap_face(both, makehuman.points).frames(faps(fap_3=500))
+    np.testing.assert_array_equal(frames[0, part.vertices], both.vertices[part.vertices].astype(np.float32))
+
+
+# ---- following ----------------------------------------------------------------------------------
+
+
+def test_what_follows_does_not_lead(following: Following) -> None:
+    assert not np.intersect1d(following.riders, following.carriers).size
+
+
+def test_following_is_linear_and_nothing_without_motion(makehuman: Head, following: Following) -> None:
+    a, b = skin_motion(makehuman, np.random.default_rng(1)), skin_motion(makehuman, np.random.default_rng(2))
+    whole = following.add_to(2 * a - b)
+    np.testing.assert_allclose(whole, 2 * following.add_to(a) - following.add_to(b), atol=1e-5)
+    np.testing.assert_array_equal(following.add_to(np.zeros_like(a)), 0.0)
+
+
+def test_a_skin_that_moves_as_one_takes_the_parts_along(makehuman: Head, following: Following) -> None:
+    moved = np.where(skin_motion(makehuman, np.random.default_rng(1)) == 0.0, 0.0, [0.3, 0.0, -0.2])
+    found = following.add_to(moved)
+    wanted = np.tile([0.3, 0.0, -0.2], (len(following.riders), 1))
+    level = axes_of(makehuman.mesh, makehuman.points) @ [0.3, 0.0, -0.2]
+    np.testing.assert_allclose(found[0, following.riders], wanted, atol=1.5 * abs(level[1]) + 1e-5)
+
+
+def test_the_order_of_vertices_does_not_matter(makehuman: Head, following: Following) -> None:
+    order = np.random.default_rng(4).permutation(len(makehuman.mesh.vertices))
+    rank = np.argsort(order)
+    mesh = TriMesh(makehuman.mesh.vertices[order], rank[makehuman.mesh.faces])
+    points = FeaturePoints(makehuman.points.names, rank[makehuman.points.vertices], makehuman.points.weights)
+    parts = parts_of(mesh, points)
+    assert sorted(part.kind for part in parts) == sorted(part.kind for part in makehuman.parts)
+    # Motion that is smooth over the skin: which of two faces holds a place on their edge does not matter.
+    skin = np.isin(np.arange(len(order)), makehuman.vertices(AROUND_EYE), invert=True)
+    moved = np.sin(3 * makehuman.mesh.vertices)[None] * skin[:, None]
+    wanted = following.add_to(moved.copy())
+    found = fit_following(mesh, points, axes_of(mesh, points), parts).add_to(moved[:, order].copy())
+    np.testing.assert_allclose(found, wanted[:, order], atol=1e-4)
+
+
+def test_place_size_and_turn_do_not_matter(makehuman: Head, following: Following) -> None:
+    turn = np.array([[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]])
+    mesh = makehuman.mesh.with_vertices(20 * makehuman.mesh.vertices @ turn.T + [3.0, -20.0, 7.0])
+    moved = skin_motion(makehuman, np.random.default_rng(5))
+    wanted = following.add_to(moved.copy())
+    parts = parts_of(mesh, makehuman.points)
+    found = fit_following(mesh, makehuman.points, axes_of(mesh, makehuman.points), parts).add_to(moved @ turn.T)
+    np.testing.assert_allclose(found, wanted @ turn.T, atol=2e-3)
+
+
+# ---- a face that FAPs move ----------------------------------------------------------------------
+
+
+def test_lashes_ride_with_the_lid_that_closes(ict: Head, playing: FapFace) -> None:
+    mesh, frame = ict.mesh, playing.frames(faps(fap_19=1024))[0].astype(float)
+    lid = np.linalg.norm(ict.points.subset(["3.1"]).positions(frame - mesh.vertices))
+    lashes = np.flatnonzero(ict.names == "lashes_L")
+    skin = np.flatnonzero((mesh.components == 0)[mesh.faces[:, 0]])
+    rest = SurfaceFinder(mesh, skin).closest(mesh.vertices[lashes]).distance
+    roots = rest < 0.02 * lid
+    assert roots.sum() > 100
+    shut = SurfaceFinder(mesh.with_vertices(frame), skin).closest(frame[lashes[roots]]).distance
+    assert shut.max() < 0.05 * lid
+    travelled = np.linalg.norm(frame - mesh.vertices, axis=1)
+    assert travelled[lashes].max() > 0.9 * lid
+    # Nothing of the other eye moves.
+    assert travelled[ict.names == "lashes_R"].max() < 0.02 * lid
+
+
+def test_a_lash_keeps_its_shape(ict: Head, playing: FapFace) -> None:
+    mesh, frame = ict.mesh, playing.frames(faps(fap_19=1024))[0].astype(float)
+    edges = mesh.edges[(ict.names[mesh.edges] == "lashes_L").all(axis=1)]
+    before, after = (np.linalg.norm(p[edges[:, 0]] - p[edges[:, 1]], axis=1) for p in (mesh.vertices, frame))
+    stretch = after / before
+    assert np.quantile(np.abs(np.log(stretch)), 0.9) < np.log(1.5)
+    assert 0.4 < stretch.min() < stretch.max() < 2.5
+
+
+def test_lower_teeth_go_with_the_chin_and_upper_teeth_stay(ict: Head, playing: FapFace) -> None:
+    moved = playing.frames(faps(fap_3=600))[0] - ict.mesh.vertices.astype(np.float32)
+    chin = ict.points.subset(["2.1"]).positions(moved)[0]
+    lower, forward = ict.vertices(LOWER), ict.mesh.vertices[:, 2]
+    front = lower[forward[lower] > np.quantile(forward[lower], 0.8)]
+    np.testing.assert_allclose(moved[front].mean(axis=0), chin, atol=0.1 * np.linalg.norm(chin))
+    # Nearer to the hinge they drop less.
+    back = lower[forward[lower] < np.quantile(forward[lower], 0.2)]
+    assert 0.3 * chin[1] > moved[back, 1].mean() > 0.8 * chin[1]
+    assert (moved[ict.vertices(UPPER)] == 0).all()
+    assert (moved[ict.vertices(EYEBALL)] == 0).all()
+
+
+def test_welded_gums_part_between_the_rows(ict: Head, playing: FapFace) -> None:
+    moved = playing.frames(faps(fap_3=600))[0] - ict.mesh.vertices.astype(np.float32)
+    gums = ict.vertices(BOTH)
+    falls = np.linalg.norm(ict.moves["jawOpen"][gums], axis=1) > 0.1
+    follows = np.abs(moved[gums]).max(axis=1) > 0.3 * np.abs(moved[gums]).max()
+    assert (falls == follows).mean() > 0.9
+
+
+def test_the_parts_are_in_every_channel_and_the_report(ict: Head, playing: FapFace) -> None:
+    shapes = playing.channel_shapes()[playing.channels.index("2.1 y")] - ict.mesh.vertices.astype(np.float32)
+    assert np.abs(shapes[ict.vertices(LOWER)]).max() > 0.5
+    does = {row["kind"]: row["does"] for row in playing.report["parts"]}
+    assert does == {
+        EYEBALL: "has motion of its own",
+        AROUND_EYE: "rides on the skin of the lids",
+        UPPER: "stays",
+        LOWER: "goes with the chin",
+        BOTH: "its lower half goes with the chin",
+    }
+    assert sum(row["vertices"] for row in playing.report["parts"]) == (ict.mesh.components != 0).sum()
+
+
+def test_the_published_weights_leave_the_parts_where_they_are(makehuman: Head) -> None:
+    face = fit_fap_face(makehuman.mesh, makehuman.points, "paper")
+    moved = face.frames(faps(fap_3=500, fap_19=1024))[0] - makehuman.mesh.vertices.astype(np.float32)
+    assert (moved[makehuman.names == "teeth_lower"] == 0).all()
+    assert (moved[np.char.startswith(makehuman.names, "lashes")] == 0).all()
+    assert face.report["parts"] == []
+
+
+# ---- methods ------------------------------------------------------------------------------------
+
+
+def test_the_parts_follow_a_retargeted_skin(makehuman: Head) -> None:
+    mesh, settings = makehuman.mesh, HierarchicalSettings(levels=1)
+    skin = (makehuman.names == "skin")[:, None]
+    source = (mesh.vertices + skin * makehuman.moves["mouth-open"]).astype(np.float32)[None]
+    face = Face(mesh, makehuman.all_points)
+    fitted = fit("hierarchical", Problem(face, face), settings)
+    moved = fitted.frames(source)[0] - mesh.vertices.astype(np.float32)
+    chin = makehuman.points.subset(["2.1"]).positions(moved)[0]
+    assert moved[makehuman.names == "teeth_lower", 1].min() < 0.8 * chin[1]
+    assert (moved[makehuman.names == "teeth_upper"] == 0).all()
+    still = {part["first_vertex"] for part in fitted.report["still_components"]}
+    assert {str(makehuman.names[first]) for first in still} == {"eye_L", "eye_R", "teeth_upper"}
+    assert any("stay put" in warning for warning in fitted.report["warnings"])
+
+
+def test_what_an_example_moves_is_left_to_the_examples(makehuman: Head) -> None:
+    own = makehuman.names == "teeth_lower"
+    found = carried_parts(makehuman.mesh, makehuman.all_points, own)
+    assert not own[found.following.riders].any()
+    assert (makehuman.names[found.following.riders] == "tongue").any()
+    assert "has motion of its own" in {row["does"] for row in found.rows}
