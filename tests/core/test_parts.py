@@ -10,10 +10,11 @@ from facial_retarget_addon.core.acting.fap_face import FapFace, fit_fap_face
 from facial_retarget_addon.core.closest_point import SurfaceFinder
 from facial_retarget_addon.core.mesh import TriMesh
 from facial_retarget_addon.core.methods.base import fit
-from facial_retarget_addon.core.methods.settings import HierarchicalSettings
+from facial_retarget_addon.core.methods.settings import FeaturePointSettings, HierarchicalSettings
 from facial_retarget_addon.core.mpeg4.fdps import FDPS
 from facial_retarget_addon.core.mpeg4.head import head_axes
 from facial_retarget_addon.core.parts.carried_parts import carried_parts
+from facial_retarget_addon.core.parts.eyes import pair_eyeballs
 from facial_retarget_addon.core.parts.find import (
     ACROSS,
     AROUND_EYE,
@@ -143,7 +144,9 @@ def test_without_chin_and_brows_nothing_is_known(makehuman: Head) -> None:
     few = makehuman.points.subset(["3.1", "8.3", "8.4", "9.3"])
     parts = find_parts(makehuman.mesh, few, np.eye(3), {})
     assert {part.kind for part in parts} == {OTHER}
-    assert len(carried_parts(makehuman.mesh, few, np.zeros(len(makehuman.mesh.vertices), bool)).following.riders) == 0
+    own = np.zeros(len(makehuman.mesh.vertices), bool)
+    eyes = pair_eyeballs(makehuman.mesh, few, makehuman.mesh, few, own)
+    assert not carried_parts(makehuman.mesh, few, eyes, own).moves.any()
 
 
 def with_component(head: Head, vertices: np.ndarray, faces: np.ndarray) -> TriMesh:
@@ -330,13 +333,60 @@ def test_the_parts_follow_a_retargeted_skin(makehuman: Head) -> None:
     assert moved[makehuman.names == "teeth_lower", 1].min() < 0.8 * chin[1]
     assert (moved[makehuman.names == "teeth_upper"] == 0).all()
     still = {part["first_vertex"] for part in fitted.report["still_components"]}
-    assert {str(makehuman.names[first]) for first in still} == {"eye_L", "eye_R", "teeth_upper"}
+    assert {str(makehuman.names[first]) for first in still} == {"teeth_upper"}
     assert any("stay put" in warning for warning in fitted.report["warnings"])
 
 
 def test_what_an_example_moves_is_left_to_the_examples(makehuman: Head) -> None:
     own = makehuman.names == "teeth_lower"
-    found = carried_parts(makehuman.mesh, makehuman.all_points, own)
+    eyes = pair_eyeballs(makehuman.mesh, makehuman.points, makehuman.mesh, makehuman.points, own)
+    found = carried_parts(makehuman.mesh, makehuman.all_points, eyes, own)
     assert not own[found.following.riders].any()
     assert (makehuman.names[found.following.riders] == "tongue").any()
     assert "has motion of its own" in {row["does"] for row in found.rows}
+
+
+TURN = np.array([[0.96, -0.28, 0.0], [0.28, 0.96, 0.0], [0.0, 0.0, 1.0]])
+"""A turn about forward; about 16 degrees."""
+
+
+def looking(head: Head, turn: np.ndarray, shift: float = 0.0) -> np.ndarray:
+    """A frame whose left eyeball is turned in the object's axes, and shifted up by a share of its radius."""
+    frame = head.mesh.vertices.copy()
+    axes = axes_of(head.mesh, head.points)
+    eye = find_eyeballs(head.mesh, head.points, axes)["left"]
+    frame[eye.vertices] = eye.turned(head.mesh.vertices, turn[None])[0] + shift * eye.radius * axes[1]
+    return frame[None].astype(np.float32)
+
+
+@pytest.mark.parametrize("settings", [FeaturePointSettings(), FeaturePointSettings(motion="faps")], ids=str)
+def test_eyeballs_turn_as_the_source_s_do(ict: Head, makehuman: Head, settings: FeaturePointSettings) -> None:
+    source, target = Face(ict.mesh, ict.points), Face(makehuman.mesh, makehuman.points)
+    fitted = fit("feature_points", Problem(source, target), settings)
+    theirs, ours = axes_of(makehuman.mesh, makehuman.points), axes_of(ict.mesh, ict.points)
+    found = fitted.frames(looking(ict, ours.T @ TURN @ ours))[0]
+    wanted = looking(makehuman, theirs.T @ TURN @ theirs)[0]
+    np.testing.assert_allclose(found, wanted, atol=1e-5 * makehuman.mesh.size)
+    rest = makehuman.mesh.vertices.astype(np.float32)
+    assert np.abs(wanted - rest).max() > 0.01
+    still = fitted.frames(ict.mesh.vertices.astype(np.float32)[None])[0]
+    np.testing.assert_array_equal(still[makehuman.vertices(EYEBALL)], rest[makehuman.vertices(EYEBALL)])
+
+
+def test_eyeballs_shift_in_the_target_s_size(ict: Head, makehuman: Head) -> None:
+    own = np.zeros(len(makehuman.mesh.vertices), bool)
+    eyes = pair_eyeballs(ict.mesh, ict.points, makehuman.mesh, makehuman.points, own)
+    moved = eyes.add_to(np.zeros((1, len(own), 3), np.float32), looking(ict, np.eye(3), 0.5))[0]
+    eye = find_eyeballs(makehuman.mesh, makehuman.points, axes_of(makehuman.mesh, makehuman.points))["left"]
+    radius = find_eyeballs(ict.mesh, ict.points, axes_of(ict.mesh, ict.points))["left"].radius
+    wanted = np.tile(0.5 * radius * eyes.scale * axes_of(makehuman.mesh, makehuman.points)[1], (len(eye.vertices), 1))
+    np.testing.assert_allclose(moved[eye.vertices], wanted, atol=1e-5)
+    assert np.abs(np.delete(moved, eye.vertices, axis=0)).max() < 1e-9
+
+
+def test_the_published_method_turns_no_eyeball(makehuman: Head) -> None:
+    face = Face(makehuman.mesh, makehuman.points)
+    fitted = fit("feature_points", Problem(face, face), FeaturePointSettings(variant="paper"))
+    found = fitted.frames(looking(makehuman, TURN))[0]
+    np.testing.assert_allclose(found, makehuman.mesh.vertices, atol=1e-5)
+    assert len(fitted.report["still_components"]) == len({*makehuman.mesh.components}) - 1

@@ -17,7 +17,7 @@ from ..acting.eyeballs import find_eyeballs
 from ..acting.eyelids import Lid, find_lids
 from ..acting.fap_face import FapFace, fit_fap_face
 from ..acting.point_deformer import PointDeformer, fit_deformer
-from ..arrays import FloatArray, IntArray, Progress, no_progress
+from ..arrays import BoolArray, FloatArray, IntArray, Progress, no_progress
 from ..errors import RetargetError
 from ..matching.smooth_warp import fit_smooth_warp
 from ..mesh import TriMesh
@@ -28,6 +28,7 @@ from ..mpeg4.fdps import FDPS
 from ..mpeg4.head import head_axes
 from ..mpeg4.regions import point_lengths
 from ..parts.acting_parts import moved_vertices, with_parts
+from ..parts.eyes import EyeTurns, pair_eyeballs
 from ..parts.report import still_components
 from ..points import FeaturePoints, common_names
 from ..problem import Problem
@@ -54,9 +55,12 @@ class FeaturePointRetargeter:
         self._problem = problem
         self._source, self._target = problem.source.mesh, problem.target.mesh
         self._points = points
+        self._eyes = _eye_turns(self._source, self._target, points, settings)
         self._motion: _FreeMotion | _FapMotion
-        kind = _FapMotion if settings.motion == "faps" else _FreeMotion
-        self._motion = kind(self._source, self._target, *points, settings)
+        if settings.motion == "faps":
+            self._motion = _FapMotion(self._source, self._target, *points, settings)
+        else:
+            self._motion = _FreeMotion(self._source, self._target, *points, settings, self._eyes.turning())
         self._read = points[0].positions(self._source.vertices)
 
     def frames(self, source: FloatArray) -> FloatArray:
@@ -67,7 +71,7 @@ class FeaturePointRetargeter:
                 f"source frames have shape {source.shape}, expected (F, {len(self._source.vertices)}, 3)"
             )
         there = self._points[0].positions(source.astype(np.float32)).astype(np.float64)
-        return self._motion.frames(there - self._read.astype(np.float32))
+        return self._eyes.add_to(self._motion.frames(there - self._read.astype(np.float32)), source)
 
     def detail(self, source: FloatArray) -> tuple[FloatArray, IntArray]:
         """The target's frames and its faces: this method has no finer mesh."""
@@ -87,10 +91,7 @@ class FeaturePointRetargeter:
         warnings = [*self._motion.warnings]
         if self._problem.source.examples:
             warnings.append("examples are not used by this method")
-        moves = moved_vertices(self._motion.deformer)
-        if isinstance(self._motion, _FapMotion):
-            for eye in self._motion.deformer.eyeballs.values():
-                moves[eye.vertices] = True
+        moves = moved_vertices(self._motion.deformer) | self._eyes.turning()
         still, named = still_components(self._target, moves)
         warnings += named
         return {
@@ -165,6 +166,7 @@ class _FreeMotion:
         source_points: FeaturePoints,
         target_points: FeaturePoints,
         settings: FeaturePointSettings,
+        turning: BoolArray,
     ) -> None:
         names = source_points.names
         places = [source_points.positions(source.vertices), target_points.positions(target.vertices)]
@@ -176,8 +178,7 @@ class _FreeMotion:
         self.deformer: PointDeformer = fit_deformer(target, target_points, self._axes[1], acting, settings.variant)
         parts: list[dict[str, Any]] = []
         if settings.variant == "default":
-            nothing = np.zeros(len(target.vertices), bool)
-            self.deformer, parts = with_parts(target, target_points, self.deformer, nothing)
+            self.deformer, parts = with_parts(target, target_points, self.deformer, turning)
         self._lids = _lid_pairs(source, source_points, self._axes[0], self.deformer.lids)
         self._neutral = target.vertices.astype(np.float32)
         self.warnings = list(self.deformer.warnings)
@@ -194,6 +195,14 @@ class _FreeMotion:
         for share, (row, _, theirs) in zip(shut, self._lids, strict=True):
             sent[:, row] += share[:, None] * theirs.gap
         return self._neutral + self.deformer.displacements(sent)
+
+
+def _eye_turns(
+    source: TriMesh, target: TriMesh, points: tuple[FeaturePoints, FeaturePoints], settings: FeaturePointSettings
+) -> EyeTurns:
+    """The eyeballs that both faces have; the published variant leaves them where they are."""
+    own = np.full(len(target.vertices), settings.variant == "paper")
+    return pair_eyeballs(source, points[0], target, points[1], own)
 
 
 def _lid_pairs(

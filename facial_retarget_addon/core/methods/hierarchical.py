@@ -21,6 +21,7 @@ from ..levels.level_gains import scale_fine, scale_levels
 from ..pair import Pair, prepare_pair
 from ..paper_motion import PaperMotion
 from ..parts.carried_parts import CarriedParts, carried_parts
+from ..parts.eyes import pair_eyeballs
 from ..parts.report import still_components
 from ..problem import Problem
 from ..steering.rbf import MultiquadricMaps, fit_multiquadrics
@@ -51,7 +52,7 @@ class HierarchicalRetargeter:
     make_fine_motion : gives the motion of the target's finest level, made when it is first asked for.
     residuals : what the examples add; None without any.
     figures : of the examples, for the report.
-    parts : what follows the skin; None for nothing.
+    parts : what follows the skin, and the eyeballs; None for nothing.
     """
 
     def __init__(
@@ -74,12 +75,14 @@ class HierarchicalRetargeter:
         """Figures of the fit, as plain data."""
         report = self._pair.report()
         moves = self._pair.correspondence.face >= 0
+        rows: list[dict[str, Any]] = []
         if self._parts is not None:
-            moves[self._parts.following.riders] = True
+            moves |= self._parts.moves
+            rows = self._parts.rows
         still, named = still_components(self._pair.target, moves)
         return {
             **report,
-            "parts": self._parts.rows if self._parts is not None else [],
+            "parts": rows,
             "still_components": still,
             "examples": self._figures,
             "warnings": report["warnings"] + named,
@@ -95,7 +98,7 @@ class HierarchicalRetargeter:
         frames = self._checked(source)
         moved = self._steered(frames, self._motion(frames))
         if self._parts is not None:
-            moved = self._parts.following.add_to(moved)
+            moved = self._parts.eyes.add_to(self._parts.following.add_to(moved), frames)
         moved += self._target
         return moved
 
@@ -204,11 +207,12 @@ def _default(
 
 
 def _parts(problem: Problem, pair: Pair, examples: list[Example]) -> CarriedParts:
-    """The parts that follow the target's skin; those that an example moves are left to the examples."""
+    """What follows the target's skin, and its eyeballs; parts that an example moves are left to the examples."""
     own = np.zeros(len(pair.target.vertices), bool)
     for example in examples:
         own |= np.abs(example.target).max(axis=1) > _STILL * pair.target_separation
-    return carried_parts(pair.target, problem.target.points, own)
+    eyes = pair_eyeballs(pair.source, problem.source.points, pair.target, problem.target.points, own)
+    return carried_parts(pair.target, problem.target.points, eyes, own)
 
 
 def _steering(

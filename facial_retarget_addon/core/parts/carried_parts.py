@@ -12,24 +12,28 @@ from ..mesh import TriMesh
 from ..mpeg4.fdps import FDPS
 from ..mpeg4.head import head_axes
 from ..points import FeaturePoints
+from .eyes import EyeTurns
 from .find import NEEDED, find_parts
 from .follow import Following, fit_following
 from .report import part_rows
 
 
 class CarriedParts(NamedTuple):
-    """What the skin's displacements do to the parts, and what each part does."""
+    """What the skin's displacements do to the parts, the eyes, what each part does, and (V,) which vertices move."""
 
     following: Following
+    eyes: EyeTurns
     rows: list[dict[str, Any]]
+    moves: BoolArray
 
 
-def carried_parts(mesh: TriMesh, points: FeaturePoints, own: BoolArray) -> CarriedParts:
+def carried_parts(mesh: TriMesh, points: FeaturePoints, eyes: EyeTurns, own: BoolArray) -> CarriedParts:
     """Find a head's parts and let them follow its skin.
 
     Parameters
     ----------
     points : those with MPEG-4 names count; without `NEEDED` among them nothing follows.
+    eyes : of the same mesh.
     own : (V,) vertices that have motion of their own: their parts are left to it.
     """
     known = points.subset([name for name in points.names if name in FDPS])
@@ -38,6 +42,6 @@ def carried_parts(mesh: TriMesh, points: FeaturePoints, own: BoolArray) -> Carri
         axes = head_axes(known.names, known.positions(mesh.vertices))
     parts = find_parts(mesh, known, axes, find_eyeballs(mesh, known, axes))
     following = fit_following(mesh, known, axes, [part for part in parts if not own[part.vertices].any()])
-    follows = np.zeros(len(mesh.vertices), bool)
-    follows[following.riders] = True
-    return CarriedParts(following, part_rows(parts, follows, own))
+    moves = eyes.turning()
+    moves[following.riders] = True
+    return CarriedParts(following, eyes, part_rows(parts, moves, own | eyes.turning()), moves)
