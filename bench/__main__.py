@@ -3,7 +3,7 @@
 import sys
 from importlib import import_module
 
-SECTIONS = ("fit", "piercing", "frames", "feature_points", "wrinkles", "real_faces", "blender_write")
+SECTIONS = ("fit", "piercing", "frames", "feature_points", "wrinkles", "real_faces", "cloning", "blender_write")
 
 
 def main(names: list[str]) -> int:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from time import perf_counter
@@ -18,9 +17,9 @@ from facial_retarget_addon.core.points import FeaturePoints
 from facial_retarget_addon.files.points import read_points
 
 from .faces import skin
+from .real_pair import DATA
 from .timing import Row, medians
 
-DATA = Path(os.environ.get("FACIAL_RETARGET_DATA", Path(__file__).resolve().parents[2] / "shared" / "data"))
 BLOCK = 16
 PAPER = 29.0
 """Frames a second of the paper's face, which has 1257 vertices."""
