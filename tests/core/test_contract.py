@@ -17,10 +17,10 @@ from facial_retarget_addon.core.points import FeaturePoints
 from facial_retarget_addon.core.problem import Face, Problem
 from facial_retarget_addon.core.retarget import retarget
 
-RESOLUTION = {"hierarchical": 0.03, "feature_points": 0.35}
+RESOLUTION = {"hierarchical": 0.03, "feature_points": 0.35, "motion_cloning": 0.001}
 """Method -> relative error of a face onto itself that it states as its own; points do not carry what lies between."""
 
-QUICK: dict[str, dict[str, object]] = {"hierarchical": {"levels": 2}, "feature_points": {}}
+QUICK: dict[str, dict[str, object]] = {"hierarchical": {"levels": 2}, "feature_points": {}, "motion_cloning": {}}
 """Method -> settings that are quick to fit."""
 
 STEERED = ("hierarchical",)
@@ -34,6 +34,10 @@ VARIANTS = [
     ("feature_points", {}),
     ("feature_points", {"variant": "paper"}),
     ("feature_points", {"motion": "faps"}),
+    ("motion_cloning", {}),
+    ("motion_cloning", {"motion": "compliant"}),
+    ("motion_cloning", {"variant": "paper"}),
+    ("motion_cloning", {"variant": "paper", "motion": "compliant"}),
 ]
 
 

@@ -74,12 +74,29 @@ class FeaturePointSettings:
     )
 
 
-Settings = HierarchicalSettings | FeaturePointSettings
+@dataclass(frozen=True)
+class MotionCloningSettings:
+    """Settings of motion cloning (Pandzic 2001)."""
+
+    motion: str = _setting(
+        "local",
+        "local: motion turns with the surface; compliant: it keeps the axes of the heads, as MPEG-4's parameters do",
+        choices=("local", "compliant"),
+    )
+    variant: str = _setting(
+        "default",
+        "default: places found on the surfaces, continuous units; paper: the published cylinder and regions",
+        choices=("default", "paper"),
+    )
+
+
+Settings = HierarchicalSettings | FeaturePointSettings | MotionCloningSettings
 """Any method's settings."""
 
-SETTINGS: dict[str, type[HierarchicalSettings] | type[FeaturePointSettings]] = {
+SETTINGS: dict[str, type[HierarchicalSettings] | type[FeaturePointSettings] | type[MotionCloningSettings]] = {
     "hierarchical": HierarchicalSettings,
     "feature_points": FeaturePointSettings,
+    "motion_cloning": MotionCloningSettings,
 }
 """Method name -> its settings class."""
 
