@@ -167,6 +167,12 @@ def test_lips_are_told_apart(actor: demo.DemoFace) -> None:
     assert found.tolist() == [1, -1, 0, 0, 0]
 
 
+def test_rounding_does_not_decide_between_lips(other: Face) -> None:
+    mesh = other.mesh
+    turned = Face(mesh.with_vertices(0.02 * mesh.vertices @ TURN.T + (3.0, -20.0, 7.0)), other.points)
+    np.testing.assert_array_equal(lips_of(turned, turned.mesh.vertices), lips_of(other, mesh.vertices))
+
+
 def test_the_plane_map_keeps_lips_apart_and_means(actor: demo.DemoFace) -> None:
     mesh, points = actor.face.mesh, skin_points(actor.face)
     cylinder = cylinder_of(points.names, points.positions(mesh.vertices))

@@ -14,6 +14,9 @@ LOWER = ("2.4", "2.8", "2.3", "2.9", "2.5", "2.12", "2.11")
 LOWER_BY_JAW = ("2.4", "2.8", "2.3", "2.9", "2.5", "2.14", "2.1", "2.13")
 """For faces without points at the sides of the chin: down to the jaw, which other points can place."""
 
+_NUDGE = np.array([0.0, 1e-6])
+"""Points of the inner contours are corners of the regions: this far into their lip, rounding does not decide."""
+
 
 def lip_outlines(names: Collection[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """FDPs around the region of the upper and of the lower lip, for a face with these points."""
@@ -31,7 +34,7 @@ def lip_regions(upper: FloatArray, lower: FloatArray, plane: FloatArray) -> IntA
     ----------
     Pandzic 2001, "Treating the lip region".
     """
-    return _inside(upper, plane).astype(np.int64) - _inside(lower, plane)
+    return _inside(upper, plane + _NUDGE).astype(np.int64) - _inside(lower, plane - _NUDGE)
 
 
 def _inside(polygon: FloatArray, places: FloatArray) -> BoolArray:
