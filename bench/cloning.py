@@ -36,10 +36,7 @@ PEERS: Mapping[str, Callable[[Problem], Cloner]] = {
     "expression cloning": ExpressionCloning,
     "deformation transfer": AlignedTransfer,
 }
-OURS = (
-    "hierarchical",
-    "feature_points",
-)
+OURS = ("hierarchical", "feature_points", "motion_cloning")
 BEST = "hierarchical"
 """The method of ours whose errors must be smaller than every peer's."""
 ERROR = "error"
