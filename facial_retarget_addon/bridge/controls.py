@@ -9,9 +9,9 @@ import numpy as np
 from bpy.types import Depsgraph, Object
 
 from ..core.acting.expression_sets import expression_shapes
-from ..core.acting.fap_face import HEAD_TURNS, FapFace
+from ..core.acting.fap_face import FapFace
 from ..core.arrays import BoolArray, FloatArray, Progress
-from ..core.mpeg4.faps import FAPS
+from ..core.mpeg4.faps import FAPS, HEAD_TURNS
 from ..fap_controls import CONTROLS, DRIVES, REACH, Control, Drive
 from .background import Steps, in_thread, part
 from .curves import find_curves, remove_curves

@@ -8,13 +8,12 @@ from pathlib import Path
 import numpy as np
 from bpy.types import Context, Object
 
-from ..core.acting.fap_face import HEAD_TURNS
 from ..core.acting.moving_head import measure_moving_head
 from ..core.errors import RetargetError
 from ..core.mpeg4.arkit import ARKIT_NAMES
 from ..core.mpeg4.arkit_take import ArkitTake
 from ..core.mpeg4.conversions import stream_of_values
-from ..core.mpeg4.faps import FAPS
+from ..core.mpeg4.faps import FAPS, HEAD_TURNS
 from ..files.motion.arkit_csv import write_arkit_csv
 from ..files.motion.fap import write_fap
 from .arkit_keys import find_arkit_keys

@@ -8,11 +8,11 @@ from pathlib import Path
 import numpy as np
 from bpy.types import Context, Object
 
-from ..core.acting.fap_face import HEAD_TURNS
 from ..core.arrays import Progress
 from ..core.mpeg4.arkit import ARKIT_NAMES
 from ..core.mpeg4.arkit_take import ArkitTake
 from ..core.mpeg4.conversions import low_level
+from ..core.mpeg4.faps import HEAD_TURNS
 from ..files.motion.read import read_motion
 from ..files.motion.stream import stream_of_motion
 from .arkit_keys import find_arkit_keys

@@ -109,9 +109,7 @@ def _unusable(side: str, face: Face) -> list[str]:
 
 def _point_components(face: Face) -> IntArray:
     """(P,) the component that holds each point."""
-    points = face.points
-    holder = points.vertices[np.arange(len(points)), np.argmax(points.weights, axis=1)]
-    components: IntArray = face.mesh.components[holder]
+    components: IntArray = face.mesh.components[face.points.holders]
     return components
 
 

@@ -45,6 +45,12 @@ class FeaturePoints:
     def __len__(self) -> int:
         return len(self.names)
 
+    @property
+    def holders(self) -> IntArray:
+        """(P,) the vertex nearest to each point: of those that hold it, the one with the most weight."""
+        holders: IntArray = self.vertices[np.arange(len(self)), self.weights.argmax(axis=1)]
+        return holders
+
     def index(self, names: Iterable[str]) -> IntArray:
         """Row of each name; RetargetError names those that are missing."""
         row = {name: i for i, name in enumerate(self.names)}

@@ -10,11 +10,12 @@ from typing import Any
 
 import numpy as np
 
-from ..core.acting.fap_face import HEAD_TURNS, FapFace
+from ..core.acting.fap_face import FapFace
 from ..core.acting.moving_head import measure_moving_head
 from ..core.arrays import FloatArray, Progress, no_progress, progress_part
 from ..core.errors import RetargetError
 from ..core.mpeg4.conversions import low_level, stream_of_values
+from ..core.mpeg4.faps import HEAD_TURNS
 from .frame_range import EVERY_FRAME, FrameRange
 from .frames import SUFFIXES, add_frames, read_frames
 from .motion.fap import add_fap

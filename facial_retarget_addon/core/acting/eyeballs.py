@@ -55,7 +55,7 @@ def find_eyeballs(mesh: TriMesh, points: FeaturePoints, axes: FloatArray) -> dic
     axes : (3, 3) of the head.
     """
     where = dict(zip(points.names, points.positions(mesh.vertices), strict=True))
-    skin = mesh.components[points.vertices[np.arange(len(points)), points.weights.argmax(axis=1)]]
+    skin = mesh.components[points.holders]
     found: dict[str, Eyeball] = {}
     for side, (upper, lower, outer, inner, _) in EYES.items():
         if not all(name in where for name in (upper, lower, outer, inner)):

@@ -86,11 +86,12 @@ def find_lids(mesh: TriMesh, points: FeaturePoints, eyeballs: Mapping[str, Eyeba
     hugs the eye's opening, which lies between.
     """
     lids: list[Lid] = []
+    steps = shortcut_graph(mesh) if eyeballs else None
     for side, ball in eyeballs.items():
         upper, lower, outer, inner, _ = EYES[side]
         away = unit_vectors(mesh.vertices - ball.centre)
         inwards = np.clip(OUTSIDE - np.einsum("vi,vi->v", mesh.vertex_normals, away), 0.0, 1.0)
-        graph = _costly(shortcut_graph(mesh), 1 + INSIDE_COST * inwards)
+        graph = _costly(steps, 1 + INSIDE_COST * inwards)
         corners = points.subset([inner, outer]).positions(mesh.vertices)
         margins = {name: _margin(mesh, graph, points.subset([inner, name, outer]), corners) for name in (upper, lower)}
         for name, other in ((upper, lower), (lower, upper)):
@@ -128,7 +129,7 @@ def _share(places: FloatArray, corners: FloatArray) -> FloatArray:
 
 def _margin(mesh: TriMesh, graph: sp.csr_matrix, three: FeaturePoints, corners: FloatArray) -> _Margin:
     """The margin through corner, middle, corner; only the middle where there is no way over the skin."""
-    holder = three.vertices[np.arange(3), three.weights.argmax(axis=1)]
+    holder = three.holders
     found = [_way(graph, int(holder[1]), int(holder[end])) for end in (0, 2)]
     vertices = np.unique(np.concatenate([holder[1:2], *found]))
     share = _share(mesh.vertices[vertices], corners)

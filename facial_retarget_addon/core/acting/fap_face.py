@@ -14,7 +14,7 @@ from ..closest_point import SurfaceFinder
 from ..errors import RetargetError
 from ..mesh import TriMesh
 from ..mpeg4.channels import PointChannels
-from ..mpeg4.faps import FAPS
+from ..mpeg4.faps import FAPS, HEAD_TURNS
 from ..mpeg4.fapu import Fapu, measure_fapu
 from ..mpeg4.fdps import FDPS
 from ..mpeg4.head import head_axes
@@ -25,8 +25,6 @@ from ..points import FeaturePoints
 from .eyeballs import Eyeball
 from .point_deformer import PointDeformer, fit_deformer
 
-HEAD_TURNS = slice(47, 50)
-"""Columns of FAPs 48 to 50."""
 EYE_COLUMNS = {"left": (24, 22, 26, 28), "right": (25, 23, 27, 29)}
 """Columns of the FAPs of an eyeball: pitch, yaw, thrust, dilation."""
 FACING = 0.3

@@ -7,9 +7,10 @@ import numpy as np
 from ..arrays import FloatArray
 from ..errors import RetargetError
 from ..markers.head_motion import FEWEST, HeadMotion, head_motion
+from ..mpeg4.faps import HEAD_TURNS
 from ..mpeg4.fdps import FDPS
 from ..mpeg4.head_turn import head_angles
-from .fap_face import HEAD_TURNS, FapFace
+from .fap_face import FapFace
 
 
 def measure_moving_head(face: FapFace, frames: FloatArray) -> tuple[FloatArray, HeadMotion]:

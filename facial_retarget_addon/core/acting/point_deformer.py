@@ -116,11 +116,10 @@ def fit_deformer(
 
 def _on_eyeballs(mesh: TriMesh, points: FeaturePoints, eyeballs: dict[str, Eyeball]) -> BoolArray:
     """(P,) points that lie on an eyeball: it turns as a whole."""
-    holder = points.vertices[np.arange(len(points)), points.weights.argmax(axis=1)]
     ball = np.zeros(len(mesh.vertices), bool)
     for eye in eyeballs.values():
         ball[eye.vertices] = True
-    on: BoolArray = ball[holder]
+    on: BoolArray = ball[points.holders]
     return on
 
 

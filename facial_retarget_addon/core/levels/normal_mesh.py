@@ -154,8 +154,7 @@ def build_normal_mesh(
 
 def _skin_faces(mesh: TriMesh, points: FeaturePoints) -> IntArray:
     """Rows of the faces of the components that hold points."""
-    holders = points.vertices[np.arange(len(points)), points.weights.argmax(axis=1)]
-    held = np.isin(mesh.components, mesh.components[holders])
+    held = np.isin(mesh.components, mesh.components[points.holders])
     return np.flatnonzero(held[mesh.faces[:, 0]])
 
 

@@ -11,7 +11,7 @@ from ..arrays import BoolArray, FloatArray
 from ..errors import RetargetError
 from ..mpeg4.channels import PointChannels
 from ..mpeg4.conversions import stream_of_values
-from ..mpeg4.faps import FAPS
+from ..mpeg4.faps import FAPS, HEAD_TURNS
 from ..mpeg4.fapu import ANGLE, Fapu, measure_fapu
 from ..mpeg4.head import head_axes
 from ..mpeg4.head_turn import head_angles
@@ -23,8 +23,6 @@ from .lips import with_inner_lips, without_swing
 from .motion import PointMotion, marker_displacements
 from .take import MarkerTake
 
-HEAD_FAPS = slice(47, 50)
-"""Columns of pitch, yaw and roll of the head."""
 UPPER_LIDS = (19, 20)
 """FAPs that close the upper lids."""
 MIRRORED = 0.01
@@ -74,8 +72,8 @@ def marker_faps(
     values = channels.values(full.displacements) * _gains(marker_map.gains, used)
     clamped = _clamp(values)
     lids = [fap for fap in UPPER_LIDS if used[fap - 1] and fap not in marker_map.gains]
-    values[:, HEAD_FAPS] = head_angles(motion.head.rotations, axes)
-    used[HEAD_FAPS] = True
+    values[:, HEAD_TURNS] = head_angles(motion.head.rotations, axes)
+    used[HEAD_TURNS] = True
     report = {
         "points": {point: marker for marker, point in marker_map.points.items()},
         "followed": followed,
@@ -130,7 +128,7 @@ def _clamp(values: FloatArray) -> dict[str, dict[str, float]]:
 
 def _head_report(motion: PointMotion, values: FloatArray, method: str, found: bool) -> dict[str, Any]:
     residual = motion.head.residual
-    degrees = np.degrees(values[:, HEAD_FAPS] * ANGLE)
+    degrees = np.degrees(values[:, HEAD_TURNS] * ANGLE)
     return {
         "method": method,
         "rigid": list(motion.rigid),

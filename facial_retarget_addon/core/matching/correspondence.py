@@ -106,7 +106,7 @@ def correspond(
     progress(0.6, "finding the places of the target's vertices on the source")
     found, agrees = _places(finder, bent, active, extent)
     progress(0.8, "mending the map")
-    sides = Sides(source, _vertices(source_points), target, _vertices(target_points), extent)
+    sides = Sides(source, source_points.holders, target, target_points.holders, extent)
     crossed = _to_own_side(sides, source, bent, found, extent)
     past_border = _on_border(source, found) & (found.distance > 0.05 * extent)
     far = past_border | (found.distance > _REACH * extent)
@@ -193,12 +193,6 @@ def _refuse_twins(points: FeaturePoints, vertex_count: int, what: str) -> None:
             f"{what}: feature points {points.names[first[0]]!r} and {points.names[second[0]]!r} lie in the same place, "
             "expected different places"
         )
-
-
-def _vertices(points: FeaturePoints) -> IntArray:
-    """(P,) the vertex nearest to each point."""
-    vertices: IntArray = points.vertices[np.arange(len(points)), points.weights.argmax(axis=1)]
-    return vertices
 
 
 def _places(finder: SurfaceFinder, bent: TriMesh, active: IntArray, extent: float) -> tuple[Nearest, BoolArray]:

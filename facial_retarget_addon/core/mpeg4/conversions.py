@@ -11,7 +11,7 @@ from ..errors import RetargetError
 from .arkit import ARKIT
 from .arkit_take import ArkitTake
 from .expressions import EXPRESSIONS
-from .faps import FAPS
+from .faps import FAPS, HEAD_TURNS
 from .fapu import ANGLE, PARTS
 from .recipes import Recipe
 from .stream import FapStream
@@ -90,8 +90,8 @@ def faps_of_arkit(take: ArkitTake) -> FapStream:
             values[:, number - 1] = sign * take.eyes[:, column] / ANGLE
     if take.head is not None and take.head.any():
         yaw, pitch, roll = np.asarray(take.head, np.float64).T
-        values[:, 47:50] = np.stack([pitch, -yaw, -roll], axis=1) / ANGLE
-        used[47:50] = True
+        values[:, HEAD_TURNS] = np.stack([pitch, -yaw, -roll], axis=1) / ANGLE
+        used[HEAD_TURNS] = True
     for upper, lower in ((19, 21), (20, 22)):
         values[:, upper - 1] = np.minimum(values[:, upper - 1], PARTS - values[:, lower - 1])
     return stream_of_values(take.name, take.fps, values, used)

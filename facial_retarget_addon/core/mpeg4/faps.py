@@ -114,3 +114,6 @@ FAPS: tuple[Fap, ...] = (
     Fap(68, "pull_r_ear", "right ear: right, off the head", "ENS", "translation", ("10.4",), X, -1, False, 67, 1),
 )
 """All of them; FAP n is FAPS[n - 1], and column n - 1 wherever FAPs are columns."""
+
+HEAD_TURNS = slice(47, 50)
+"""Columns of FAPs 48 to 50, which turn the head as a whole."""

@@ -36,7 +36,7 @@ def head_axes(names: Sequence[str], positions: FloatArray) -> FloatArray:
     RetargetError : if there is no pair of points, or chin and brows are missing and cannot be placed.
     """
     where = {name: np.asarray(position, np.float64) for name, position in zip(names, positions, strict=True)}
-    pairs = [(name, FDPS[name].partner) for name in where if name in FDPS and _is_left(name)]
+    pairs = [(name, FDPS[name].partner) for name in where if name in LEFT]
     across = [where[left] - where[right] for left, right in pairs if right in where]
     if not across:
         raise RetargetError(
@@ -50,10 +50,6 @@ def head_axes(names: Sequence[str], positions: FloatArray) -> FloatArray:
     back_to_front = cross(left, rise)
     up = np.cos(LEAN) * rise + np.sin(LEAN) * back_to_front
     return np.stack([left, up, cross(left, up)])
-
-
-def _is_left(name: str) -> bool:
-    return name in LEFT
 
 
 LEFT = frozenset(

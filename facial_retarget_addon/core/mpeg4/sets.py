@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from .arkit import ARKIT
 from .expressions import EXPRESSIONS
-from .faps import FAPS
+from .faps import FAPS, HEAD_TURNS
 from .recipes import Recipe
 from .visemes import VISEMES
-
-HEAD_TURNS = (48, 49, 50)
-"""FAPs that turn the head as a whole: no shape of the face."""
 
 SETS: dict[str, dict[str, Recipe]] = {
     "expressions": {name: expression.recipe for name, expression in EXPRESSIONS.items()},
@@ -18,7 +15,7 @@ SETS: dict[str, dict[str, Recipe]] = {
     "faps": {
         fap.name: {fap.number: 50000 if fap.unit == "AU" else 1024}
         for fap in FAPS
-        if fap.unit and fap.number not in HEAD_TURNS
+        if fap.unit and fap not in FAPS[HEAD_TURNS]
     },
 }
 """Set -> shape -> recipe. In "faps" a FAP of length moves its whole length, an angle turns by half a radian."""
