@@ -18,7 +18,7 @@ from .base.regions import eye_separation
 from .binding import Binding, bind
 from .carry import LinearMotion, local_turns
 from .levels.normal_mesh import NormalLevel, NormalMesh, build_normal_mesh
-from .levels.subdivision import Level, hierarchy
+from .levels.subdivision import Level, Scheme, hierarchy, loop
 from .matching.correspondence import Correspondence, correspond, places_on_source
 from .mesh import TriMesh
 from .mpeg4.regions import OWN_PARTS
@@ -174,13 +174,20 @@ class Pair:
         }
 
 
-def prepare_pair(problem: Problem, levels: int, base_points: int, progress: Progress = no_progress) -> Pair:
+def prepare_pair(
+    problem: Problem,
+    levels: int,
+    base_points: int,
+    progress: Progress = no_progress,
+    scheme: Scheme = loop,
+) -> Pair:
     """Correspondence, base mesh and normal meshes of two faces.
 
     Parameters
     ----------
     levels : of the normal meshes.
     base_points : wanted in the base; what the given points lack is added between them.
+    scheme : subdivision that predicts each level.
 
     Raises
     ------
@@ -196,7 +203,7 @@ def prepare_pair(problem: Problem, levels: int, base_points: int, progress: Prog
     progress(0.5, "making the base mesh")
     base = base_mesh(source, on_source, target, on_target, problem.base, problem.make_caster)
     base, on_source, on_target = refine_base(base, source, on_source, target, on_target, found, base_points)
-    steps = hierarchy(base.faces, len(base.names), levels)
+    steps = hierarchy(base.faces, len(base.names), levels, scheme)
     progress(0.7, "piercing both faces")
     with ThreadPoolExecutor(2) as both:
         source_normal, target_normal = both.map(

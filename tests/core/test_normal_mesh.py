@@ -7,10 +7,11 @@ import pytest
 
 from facial_retarget_addon.core.base.base_mesh import BaseMesh, base_mesh
 from facial_retarget_addon.core.errors import RetargetError
+from facial_retarget_addon.core.levels.butterfly import butterfly
 from facial_retarget_addon.core.levels.normal_mesh import NormalMesh, build_normal_mesh
 from facial_retarget_addon.core.levels.normal_synthesis import NormalSynthesis
 from facial_retarget_addon.core.levels.piercing import outliers, pierce
-from facial_retarget_addon.core.levels.subdivision import boundary_parameters, hierarchy
+from facial_retarget_addon.core.levels.subdivision import Scheme, boundary_parameters, hierarchy, loop
 from facial_retarget_addon.core.levels.vertex_neighbours import adjacency, mean_of_known, neighbour_median
 from facial_retarget_addon.core.mesh import TriMesh
 from facial_retarget_addon.core.points import FeaturePoints
@@ -20,9 +21,9 @@ from facial_retarget_addon.files.points import read_points
 from .test_base_mesh import dome, spread
 
 
-def resampled(mesh: TriMesh, points: FeaturePoints, levels: int) -> tuple[BaseMesh, NormalMesh]:
+def resampled(mesh: TriMesh, points: FeaturePoints, levels: int, scheme: Scheme = loop) -> tuple[BaseMesh, NormalMesh]:
     base = base_mesh(mesh, points, mesh, points)
-    steps = hierarchy(base.faces, len(base.names), levels)
+    steps = hierarchy(base.faces, len(base.names), levels, scheme)
     return base, build_normal_mesh(mesh, points.subset(base.names), base.loops, steps)
 
 
@@ -32,9 +33,24 @@ def bumpy() -> TriMesh:
     return mesh.with_vertices(mesh.vertices * (1 + 0.03 * np.sin(9 * mesh.vertices).prod(axis=1))[:, None])
 
 
+@pytest.fixture(scope="module", params=[loop, butterfly], ids=["loop", "butterfly"])
+def scheme(request: pytest.FixtureRequest) -> Scheme:
+    chosen: Scheme = request.param
+    return chosen
+
+
 @pytest.fixture(scope="module")
-def made(bumpy: TriMesh) -> tuple[BaseMesh, NormalMesh]:
-    return resampled(bumpy, spread(bumpy, 40), 4)
+def made(bumpy: TriMesh, scheme: Scheme) -> tuple[BaseMesh, NormalMesh]:
+    return resampled(bumpy, spread(bumpy, 40), 4, scheme)
+
+
+def test_old_vertices_of_the_butterfly_stay(bumpy: TriMesh) -> None:
+    made = resampled(bumpy, spread(bumpy, 40), 3, butterfly)[1]
+    positions = made.base
+    for level in made.levels:
+        assert np.abs(level.positions[: len(positions)] - positions).max() < 1e-9
+        assert not level.offsets[: len(positions)].any()
+        positions = level.positions
 
 
 def test_every_vertex_lies_where_it_says(bumpy: TriMesh, made: tuple[BaseMesh, NormalMesh]) -> None:
@@ -78,12 +94,14 @@ def test_offsets_may_differ_by_frame(made: tuple[BaseMesh, NormalMesh]) -> None:
         synthesis.frames(base, [*varied[:3], varied[3][:, 1:]])
 
 
-def test_a_turned_and_scaled_face_gives_the_same_places(bumpy: TriMesh, made: tuple[BaseMesh, NormalMesh]) -> None:
+def test_a_turned_and_scaled_face_gives_the_same_places(
+    bumpy: TriMesh, made: tuple[BaseMesh, NormalMesh], scheme: Scheme
+) -> None:
     turn = np.linalg.qr(np.random.default_rng(0).normal(size=(3, 3)))[0]
     turn *= np.sign(np.linalg.det(turn))
     other = bumpy.with_vertices(7 * bumpy.vertices @ turn.T + [3, -4, 5])
     points = spread(bumpy, 40)
-    again = resampled(other, points, 3)[1]
+    again = resampled(other, points, 3, scheme)[1]
     assert np.abs(again.levels[2].positions - (7 * made[1].levels[2].positions @ turn.T + [3, -4, 5])).max() < 1e-3
 
 

@@ -112,10 +112,10 @@ def build_normal_mesh(
     """Pierce a face level by level.
 
     Every level is predicted by subdivision; its boundary vertices move to the curves of their loops and the
-    others near by follow. Then every other vertex moves along the prediction's unit normal (area-weighted), either
-    way, to the nearest hit whose normal agrees and that is near. Hits that are outliers among their neighbours are
-    dropped. What missed is looked for again from the mean of its neighbours along normals averaged over growing
-    rings, by the same rule.
+    others near by follow, except for old ones where the scheme is interpolating: those stay where they are. Then
+    every other vertex moves along the prediction's unit normal (area-weighted), either way, to the nearest hit whose
+    normal agrees and that is near. Hits that are outliers among their neighbours are dropped. What missed is looked
+    for again from the mean of its neighbours along normals averaged over growing rings, by the same rule.
 
     What no look finds is a *piercing error*: it becomes the mean of its neighbours, moved to the closest place of the
     surface whose normal agrees. Vertices found by a second look are not errors, but are counted in `second_looks`.
@@ -144,11 +144,11 @@ def build_normal_mesh(
     builder = _Builder(skin, points, loops, steps, make_caster(skin))
     base = points.positions(mesh.vertices)
     levels: list[NormalLevel] = []
-    positions = base
+    positions, places = base, builder.base_places(base)
     for number, step in enumerate(steps):
-        level = builder.level(positions, step, number)
+        level = builder.level(positions, places, step, number)
+        positions, places = level.positions, _Places(level.place_face, level.place_weights)
         levels.append(replace(level, place_face=rows[level.place_face]))
-        positions = level.positions
     return NormalMesh(base, tuple(steps), tuple(levels))
 
 
@@ -161,11 +161,16 @@ def _skin_faces(mesh: TriMesh, points: FeaturePoints) -> IntArray:
 class _Places:
     """Where on the face each vertex of a level lies, as it becomes known."""
 
-    def __init__(self, count: int) -> None:
-        self.face = np.full(count, -1, np.int64)
-        self.weights = np.zeros((count, 3))
+    def __init__(self, face: IntArray, weights: FloatArray) -> None:
+        self.face, self.weights = face, weights
 
-    def put(self, vertices: IntArray, places: Nearest | Pierced, rows: IntArray | slice = slice(None)) -> None:
+    @classmethod
+    def unknown(cls, count: int) -> _Places:
+        return cls(np.full(count, -1, np.int64), np.zeros((count, 3)))
+
+    def put(
+        self, vertices: IntArray, places: Nearest | Pierced | _Places, rows: IntArray | slice = slice(None)
+    ) -> None:
         self.face[vertices], self.weights[vertices] = places.face[rows], places.weights[rows]
 
 
@@ -191,15 +196,27 @@ class _Builder:
             places = curves.places(base[loop.vertices], normals[loop.vertices], parameters)
             self._curves.append((parameters, places))
 
-    def level(self, coarse: FloatArray, step: Level, number: int) -> NormalLevel:
-        """Predict, move the boundary, pierce, look again, fill."""
+    def base_places(self, base: FloatArray) -> _Places:
+        """Where the base's vertices (B, 3) lie."""
+        found = self._finder.closest(base)
+        return _Places(found.face, found.weights)
+
+    def level(self, coarse: FloatArray, known: _Places, step: Level, number: int) -> NormalLevel:
+        """Predict, move the boundary, pierce, look again, fill; known : places of the coarse vertices."""
         predicted = step.matrix @ coarse
         positions = predicted.copy()
-        places = _Places(len(predicted))
+        places = _Places.unknown(len(predicted))
         self._place_boundary(number, positions, places)
         boundary = np.flatnonzero(places.face >= 0)
         neighbours = adjacency(TriMesh(positions, step.faces))
         spread = spread_inwards(neighbours, boundary, _SPREAD_ROUNDS)
+        if step.interpolating:
+            kept = np.flatnonzero(places.face[: len(coarse)] < 0)
+            places.put(kept, known, kept)
+            follows = np.ones(len(predicted))
+            follows[kept] = 0.0
+            spread = (sp.diags(follows) @ spread).tocsr()
+            spread.eliminate_zeros()
         displacement = (positions - predicted)[boundary]
         positions += spread @ displacement
         prediction = TriMesh(positions, step.faces)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import scipy.sparse as sp
@@ -38,6 +39,17 @@ class Level:
     def vertex_count(self) -> int:
         """Number of fine vertices V'."""
         return int(self.matrix.shape[0])
+
+    @property
+    def coarse_count(self) -> int:
+        """Number of coarse vertices V."""
+        return int(self.matrix.shape[1])
+
+    @cached_property
+    def interpolating(self) -> bool:
+        """Whether every coarse vertex stays where it is."""
+        old = self.matrix[: self.coarse_count]
+        return bool(old.nnz == self.coarse_count and (old.diagonal() == 1).all())
 
 
 Scheme = Callable[[IntArray, int], Level]
@@ -79,7 +91,7 @@ def loop(faces: IntArray, vertex_count: int) -> Level:
     ----------
     Loop 1987; Hoppe et al. 1994 (boundaries).
     """
-    mesh = _connectivity(faces, vertex_count)
+    mesh = connectivity(faces, vertex_count)
     edges, face_edges = mesh.edges, mesh.face_edges
     on_boundary: BoolArray = mesh.edge_face_count == 1
     matrix = sp.vstack([_loop_vertices(mesh, on_boundary), _loop_edges(mesh, on_boundary)]).tocsr()
@@ -134,7 +146,8 @@ def boundary_parameters(loops: Sequence[IntArray], steps: Sequence[Level]) -> li
     return found
 
 
-def _connectivity(faces: IntArray, vertex_count: int) -> TriMesh:
+def connectivity(faces: IntArray, vertex_count: int) -> TriMesh:
+    """The faces as a mesh without positions; RetargetError if it is not edge-manifold and oriented."""
     mesh = TriMesh(np.zeros((vertex_count, 3)), faces)
     if not mesh.is_edge_manifold:
         raise RetargetError(
