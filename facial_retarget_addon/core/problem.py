@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from .arrays import FloatArray
 from .mesh import TriMesh
+from .parts.kinds import NamedParts
 from .points import FeaturePoints
 from .raycast import CasterFactory, EmbreeCaster
 
@@ -16,11 +17,14 @@ class Face:
     """A neutral face, its feature points, and the examples that it was given.
 
     examples : name -> (V, 3) positions of the same vertices.
+    named_parts : what the artist calls a part, one of `parts.kinds.NAMED_KINDS` -> vertices (n,), at least one on each
+        of its components; other components are told by where they lie.
     """
 
     mesh: TriMesh
     points: FeaturePoints
     examples: Mapping[str, FloatArray] = field(default_factory=dict)
+    named_parts: NamedParts = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,11 +18,12 @@ VERSION = 1
 
 @dataclass(frozen=True)
 class FaceFiles:
-    """Files of one face: its neutral mesh, its feature points, and the frames it acts (the source's)."""
+    """Files of one face: its neutral mesh, its feature points, the frames it acts (the source's), its named parts."""
 
     neutral: Path
     points: Path | None = None
     frames: Path | None = None
+    parts: Path | None = None
 
 
 @dataclass(frozen=True)
@@ -66,9 +67,11 @@ class Job:
             "base": self.base,
             "[source] neutral": self.source.neutral,
             "[source] points": self.source.points,
+            "[source] parts": self.source.parts,
             "[source] frames": self.source.frames,
             "[target] neutral": self.target.neutral,
             "[target] points": self.target.points,
+            "[target] parts": self.target.parts,
         }
         for example in self.examples:
             named[f"example {example.name!r} source"] = example.source
@@ -97,8 +100,8 @@ def read_job(path: Path) -> Job:
         wrong.append(f"method = {method!r}, expected one of {', '.join(METHODS)}")
     job = Job(
         method=method,
-        source=_read_face(root.table("source"), path.parent, ("points",), ("frames",)),
-        target=_read_face(root.table("target"), path.parent, ("points",), ()),
+        source=_read_face(root.table("source"), path.parent, ("points", "parts"), ("frames",)),
+        target=_read_face(root.table("target"), path.parent, ("points", "parts"), ()),
         examples=_read_examples(root, path.parent),
         settings=_read_settings(method, root),
         output=_read_output(root.table("output"), path.parent),
@@ -188,7 +191,7 @@ def write_job(job: Job, path: Path) -> None:
 
 
 def _face_lines(name: str, face: FaceFiles, folder: Path) -> list[str]:
-    files = {"neutral": face.neutral, "points": face.points, "frames": face.frames}
+    files = {"neutral": face.neutral, "points": face.points, "parts": face.parts, "frames": face.frames}
     return ["", f"[{name}]"] + [
         f"{key} = {_toml(_relative(file, folder))}" for key, file in files.items() if file is not None
     ]

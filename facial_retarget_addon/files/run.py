@@ -13,6 +13,7 @@ import numpy as np
 from ..core.arrays import FloatArray, Progress, no_progress, progress_part
 from ..core.checks import faults, warnings
 from ..core.errors import RetargetError
+from ..core.parts.kinds import NO_NAMES, NamedParts
 from ..core.points import FeaturePoints
 from ..core.problem import Face, Problem
 from ..core.retarget import retarget
@@ -22,6 +23,7 @@ from .job import FaceFiles, Job, read_job
 from .mesh_file import MeshFile
 from .meshes import read_mesh, read_positions
 from .pages.report import report_json, report_page
+from .parts import read_parts
 from .points import read_points
 from .whole import check_place, written_whole
 
@@ -146,6 +148,7 @@ class _Reading:
         """The problem, without examples and frames that are unreadable; None if its faces or base are."""
         source, target = self.attempt(read_mesh, job.source.neutral), self.attempt(read_mesh, job.target.neutral)
         source_points, target_points = self.points(job.source, source), self.points(job.target, target)
+        source_parts, target_parts = self.parts(job.source, source), self.parts(job.target, target)
         base = None if job.base is None else self.attempt(read_base_mesh, job.base)
         examples: dict[str, tuple[FloatArray, FloatArray]] = {}
         for example in job.examples:
@@ -159,12 +162,12 @@ class _Reading:
             frames = self.attempt(read_frames, job.source.frames, len(source.mesh.vertices))
         if source is None or target is None or source_points is None or target_points is None:
             return None
-        if base is None and job.base is not None:
+        if (base is None and job.base is not None) or source_parts is None or target_parts is None:
             return None
         return Inputs(
             Problem(
-                Face(source.mesh, source_points, {name: pair[0] for name, pair in examples.items()}),
-                Face(target.mesh, target_points, {name: pair[1] for name, pair in examples.items()}),
+                Face(source.mesh, source_points, {name: pair[0] for name, pair in examples.items()}, source_parts),
+                Face(target.mesh, target_points, {name: pair[1] for name, pair in examples.items()}, target_parts),
                 base,
             ),
             frames,
@@ -177,3 +180,9 @@ class _Reading:
         if files.points is None:
             return FeaturePoints((), np.empty((0, 3), np.int64), np.empty((0, 3)))
         return None if face is None else self.attempt(read_points, files.points, face.mesh)
+
+    def parts(self, files: FaceFiles, face: MeshFile | None) -> NamedParts | None:
+        """The parts of a face that are named, none where the job names no file; None if they cannot be read."""
+        if files.parts is None:
+            return NO_NAMES
+        return None if face is None else self.attempt(read_parts, files.parts, face.mesh)

@@ -171,6 +171,28 @@ def test_points_of_eyes_tongue_and_teeth_may_lie_on_parts_of_their_own(problem: 
         assert not [fault for fault in faults(changed, None, SETTINGS) if "another part" in fault]
 
 
+@pytest.mark.parametrize(
+    ("named", "expected"),
+    [
+        ({"teef": [256]}, "target: a part is named 'teef', expected one of left eyeball"),
+        ({"tongue": [259]}, "target: part 'tongue' has vertices that the 259 do not include"),
+        ({"tongue": [-1]}, "target: part 'tongue' has vertices that the 259 do not include"),
+        ({"tongue": []}, "target: part 'tongue' has float64 (0,), expected a list of vertices"),
+        ({"tongue": [257.0]}, "target: part 'tongue' has float64 (1,), expected a list of vertices"),
+        ({"tongue": [257, 3]}, "target: part 'tongue' and the skin are one connected piece, expected separate ones"),
+        ({"tongue": [257], "still": [256]}, "target: part 'still' and tongue are one connected piece"),
+    ],
+)
+def test_named_parts(problem: Problem, named: dict[str, list[float]], expected: str) -> None:
+    face = problem.target
+    parts = {name: np.array(vertices) for name, vertices in named.items()}
+    with_part = Face(with_eye(face.mesh), face.points, named_parts=parts)
+    changed = Problem(replace(problem.source, examples={}), with_part)
+    assert expected in one(faults(changed, None, SETTINGS))
+    sound = replace(with_part, named_parts={"tongue": np.array([257])})
+    assert not faults(replace(changed, target=sound), None, SETTINGS)
+
+
 def test_points_in_one_place(problem, frames):
     held = problem.target.points.vertices[4, 0]
     twin = FeaturePoints(("twin",), np.array([[0, held, 1]]), np.array([[0.0, 1.0, 0.0]]))

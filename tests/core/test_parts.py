@@ -15,7 +15,9 @@ from facial_retarget_addon.core.mpeg4.fdps import FDPS
 from facial_retarget_addon.core.mpeg4.head import head_axes
 from facial_retarget_addon.core.parts.carried_parts import carried_parts
 from facial_retarget_addon.core.parts.eyes import pair_eyeballs
-from facial_retarget_addon.core.parts.find import (
+from facial_retarget_addon.core.parts.find import Part, find_parts
+from facial_retarget_addon.core.parts.follow import Following, fit_following
+from facial_retarget_addon.core.parts.kinds import (
     ACROSS,
     AROUND_EYE,
     BOTH,
@@ -24,10 +26,7 @@ from facial_retarget_addon.core.parts.find import (
     LOWER,
     OTHER,
     UPPER,
-    Part,
-    find_parts,
 )
-from facial_retarget_addon.core.parts.follow import Following, fit_following
 from facial_retarget_addon.core.points import FeaturePoints
 from facial_retarget_addon.core.problem import Face, Problem
 from facial_retarget_addon.files.points import read_points
@@ -145,8 +144,8 @@ def test_without_chin_and_brows_nothing_is_known(makehuman: Head) -> None:
     parts = find_parts(makehuman.mesh, few, np.eye(3), {})
     assert {part.kind for part in parts} == {OTHER}
     own = np.zeros(len(makehuman.mesh.vertices), bool)
-    eyes = pair_eyeballs(makehuman.mesh, few, makehuman.mesh, few, own)
-    assert not carried_parts(makehuman.mesh, few, eyes, own).moves.any()
+    face = Face(makehuman.mesh, few)
+    assert not carried_parts(face, face, own).moves.any()
 
 
 def with_component(head: Head, vertices: np.ndarray, faces: np.ndarray) -> TriMesh:
@@ -199,6 +198,48 @@ def test_a_sheet_behind_a_mouth_without_lower_teeth_stays(makehuman: Head) -> No
     assert part.kind == ACROSS
     frames = fit_fap_face(both, makehuman.points).frames(faps(fap_3=500))
     np.testing.assert_array_equal(frames[0, part.vertices], both.vertices[part.vertices].astype(np.float32))
+
+
+def test_a_named_part_is_what_its_name_says(makehuman: Head) -> None:
+    names = makehuman.names
+    tongue, teeth, lash = (np.flatnonzero(names == name) for name in ("tongue", "teeth_upper", "lashes_L"))
+    named = {"still": tongue[:1], "lower teeth": teeth[3:5], "left eyeball": lash}
+    axes = axes_of(makehuman.mesh, makehuman.points)
+    eyeballs = find_eyeballs(makehuman.mesh, makehuman.points, axes, named)
+    np.testing.assert_array_equal(eyeballs["left"].vertices, lash)
+    np.testing.assert_array_equal(eyeballs["right"].vertices, np.flatnonzero(names == "eye_R"))
+    parts = find_parts(makehuman.mesh, makehuman.points, axes, eyeballs, named)
+    kinds = {int(part.vertices.min()): (part.kind, part.reason) for part in parts}
+    assert kinds[tongue.min()] == (OTHER, "named still")
+    assert kinds[teeth.min()] == (LOWER, "named lower teeth")
+    assert kinds[lash.min()] == (EYEBALL, "named left eyeball")
+    assert len(parts) == len(makehuman.parts)
+    together = np.sort(np.concatenate([part.vertices for part in parts]))
+    np.testing.assert_array_equal(together, np.flatnonzero(names != "skin"))
+
+
+def test_named_parts_are_known_without_chin_and_brows(makehuman: Head) -> None:
+    few = makehuman.points.subset(["3.1", "8.3", "8.4", "9.3"])
+    lash, teeth = (np.flatnonzero(makehuman.names == name) for name in ("lashes_L", "teeth_lower"))
+    face = Face(makehuman.mesh, few, named_parts={"lashes": lash, "lower teeth": teeth[:1]})
+    moves = carried_parts(face, face, np.zeros(len(makehuman.names), bool)).moves
+    np.testing.assert_array_equal(np.flatnonzero(moves), lash)
+
+
+def test_an_eyeball_with_a_pupil_s_point_is_found(makehuman: Head) -> None:
+    ball = np.flatnonzero(makehuman.names == "eye_L")
+    front = ball[makehuman.mesh.vertices[ball, 2].argmax()]
+    pupil = FeaturePoints(("3.5",), np.full((1, 3), front), np.array([[1.0, 0.0, 0.0]]))
+    axes = axes_of(makehuman.mesh, makehuman.points)
+    found = find_eyeballs(makehuman.mesh, makehuman.points.joined(pupil), axes)
+    np.testing.assert_array_equal(found["left"].vertices, ball)
+
+
+def test_a_face_that_faps_move_hears_the_names(makehuman: Head) -> None:
+    teeth = np.flatnonzero(makehuman.names == "teeth_lower")
+    face = fit_fap_face(makehuman.mesh, makehuman.points, named={"still": teeth[:1]})
+    frame = face.frames(faps(fap_3=500))[0]
+    np.testing.assert_array_equal(frame[teeth], makehuman.mesh.vertices[teeth].astype(np.float32))
 
 
 # ---- following ----------------------------------------------------------------------------------
@@ -339,8 +380,8 @@ def test_the_parts_follow_a_retargeted_skin(makehuman: Head) -> None:
 
 def test_what_an_example_moves_is_left_to_the_examples(makehuman: Head) -> None:
     own = makehuman.names == "teeth_lower"
-    eyes = pair_eyeballs(makehuman.mesh, makehuman.points, makehuman.mesh, makehuman.points, own)
-    found = carried_parts(makehuman.mesh, makehuman.all_points, eyes, own)
+    face = Face(makehuman.mesh, makehuman.all_points)
+    found = carried_parts(face, face, own)
     assert not own[found.following.riders].any()
     assert (makehuman.names[found.following.riders] == "tongue").any()
     assert "has motion of its own" in {row["does"] for row in found.rows}
@@ -375,7 +416,7 @@ def test_eyeballs_turn_as_the_source_s_do(ict: Head, makehuman: Head, settings: 
 
 def test_eyeballs_shift_in_the_target_s_size(ict: Head, makehuman: Head) -> None:
     own = np.zeros(len(makehuman.mesh.vertices), bool)
-    eyes = pair_eyeballs(ict.mesh, ict.points, makehuman.mesh, makehuman.points, own)
+    eyes = pair_eyeballs(Face(ict.mesh, ict.points), Face(makehuman.mesh, makehuman.points), own)
     moved = eyes.add_to(np.zeros((1, len(own), 3), np.float32), looking(ict, np.eye(3), 0.5))[0]
     eye = find_eyeballs(makehuman.mesh, makehuman.points, axes_of(makehuman.mesh, makehuman.points))["left"]
     radius = find_eyeballs(ict.mesh, ict.points, axes_of(ict.mesh, ict.points))["left"].radius

@@ -72,8 +72,8 @@ def jobs(draw: st.DrawFn, folder: Path) -> Job:
     level_gains = draw(st.lists(st.floats(0, 4), max_size=4))
     return Job(
         method="hierarchical",
-        source=FaceFiles(path(), draw(st.none() | st.just(path())), path()),
-        target=FaceFiles(path(), draw(st.none() | st.just(path()))),
+        source=FaceFiles(path(), draw(st.none() | st.just(path())), path(), draw(st.none() | st.just(path()))),
+        target=FaceFiles(path(), draw(st.none() | st.just(path())), parts=draw(st.none() | st.just(path()))),
         examples=tuple(ExampleFiles(name, path(), path()) for name in draw(st.lists(names, unique=True, max_size=3))),
         settings=HierarchicalSettings(
             levels=draw(st.integers(1, 6)), base_gain=draw(st.floats(0, 4)), level_gains=tuple(level_gains)

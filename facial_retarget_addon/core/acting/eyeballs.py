@@ -9,6 +9,8 @@ import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..mesh import TriMesh
+from ..mpeg4.regions import OWN_PARTS
+from ..parts.kinds import NO_NAMES, NamedParts, eyeball_name, named_vertices
 from ..points import FeaturePoints
 
 EYES: dict[str, tuple[str, str, str, str, str]] = {
@@ -43,28 +45,37 @@ class Eyeball(NamedTuple):
         return turned
 
 
-def find_eyeballs(mesh: TriMesh, points: FeaturePoints, axes: FloatArray) -> dict[str, Eyeball]:
+def find_eyeballs(
+    mesh: TriMesh, points: FeaturePoints, axes: FloatArray, named: NamedParts = NO_NAMES
+) -> dict[str, Eyeball]:
     """The eyeballs behind the lids, by side; one that the head lacks is guessed from the lids, without vertices.
 
-    An eyeball is made of round parts, other than the skin, whose middle lies where the lids let it be. What is not
-    round, such as lashes, does not belong to it.
+    An eyeball is what the artist calls one. Otherwise it is made of round parts, other than the skin, whose middle lies
+    where the lids let it be. What is not round, such as lashes, does not belong to it.
 
     Parameters
     ----------
     points : an eye is looked for where its lids and corners are among them.
     axes : (3, 3) of the head.
+    named : parts that the artist named.
     """
+    called = named_vertices(mesh, named)
     where = dict(zip(points.names, points.positions(mesh.vertices), strict=True))
-    skin = mesh.components[points.holders]
+    on_skin = points.subset([name for name in points.names if name not in OWN_PARTS])
+    taken = mesh.components[np.concatenate([on_skin.holders, *called.values()])]
     found: dict[str, Eyeball] = {}
     for side, (upper, lower, outer, inner, _) in EYES.items():
+        if eyeball_name(side) in called:
+            vertices = called[eyeball_name(side)]
+            found[side] = Eyeball(side, vertices, *fit_sphere(mesh.vertices[vertices]))
+            continue
         if not all(name in where for name in (upper, lower, outer, inner)):
             continue
         width = float(np.linalg.norm(where[outer] - where[inner]))
         radius = RADIUS * width
         guess = 0.5 * (where[upper] + where[lower])
         guess = guess - axes[2] * _depth(where, (upper, lower), radius)
-        parts = _round_parts(mesh, skin, guess, radius)
+        parts = _round_parts(mesh, taken, guess, radius)
         if parts.any():
             vertices = np.flatnonzero(parts)
             centre, radius = fit_sphere(mesh.vertices[vertices])
@@ -89,14 +100,14 @@ def _depth(where: dict[str, FloatArray], lids: Sequence[str], radius: float) -> 
     return float(np.sqrt(max(radius**2 - half**2, 0.0)))
 
 
-def _round_parts(mesh: TriMesh, skin: IntArray, centre: FloatArray, radius: float) -> BoolArray:
-    """(V,) vertices of the round components around a place."""
+def _round_parts(mesh: TriMesh, taken: IntArray, centre: FloatArray, radius: float) -> BoolArray:
+    """(V,) vertices of the round components around a place, other than those taken."""
     chosen = np.zeros(len(mesh.vertices), bool)
     far = np.linalg.norm(mesh.vertices - centre, axis=1)
     near = np.unique(mesh.components[far < 2 * radius])
     for component in near:
         own = mesh.components == component
-        if component in skin or own.sum() < 12 or far[own].max() > 3 * radius:
+        if component in taken or own.sum() < 12 or far[own].max() > 3 * radius:
             continue
         middle, size = fit_sphere(mesh.vertices[own])
         spread = np.linalg.norm(mesh.vertices[own] - middle, axis=1).std()

@@ -21,6 +21,7 @@ from ..mpeg4.head import head_axes
 from ..mpeg4.head_turn import rotation_of_angles
 from ..mpeg4.mean_face import place_missing
 from ..parts.acting_parts import with_parts
+from ..parts.kinds import NO_NAMES, NamedParts
 from ..points import FeaturePoints
 from .eyeballs import Eyeball
 from .point_deformer import PointDeformer, fit_deformer
@@ -54,7 +55,7 @@ class FapFace:
     channels : names of the channels, C of them.
     """
 
-    def __init__(self, mesh: TriMesh, points: FeaturePoints, variant: str) -> None:
+    def __init__(self, mesh: TriMesh, points: FeaturePoints, variant: str, named: NamedParts = NO_NAMES) -> None:
         """Fit; see `fit_fap_face`."""
         self.mesh, self.points, self._variant = mesh, points, variant
         known = points.subset([name for name in points.names if name in FDPS])
@@ -66,7 +67,7 @@ class FapFace:
         acting = self._motion.acting | holds[:, None]
         root = _nose_root(mesh, known, self.axes)
         held = np.concatenate([acting, np.ones((len(root), 3), bool)])
-        self.deformer: PointDeformer = fit_deformer(mesh, known.joined(root), self.axes, held, variant)
+        self.deformer: PointDeformer = fit_deformer(mesh, known.joined(root), self.axes, held, variant, named=named)
         self.known = known
         self._moving = np.flatnonzero(self._motion.acting.ravel())
         self._eyes = [eye for eye in self.deformer.eyeballs.values() if len(eye.vertices)]
@@ -74,7 +75,7 @@ class FapFace:
         if variant == "default":
             turning = np.zeros(len(mesh.vertices), bool)
             turning[[vertex for eye in self._eyes for vertex in eye.vertices]] = True
-            self.deformer, self._parts = with_parts(mesh, known, self.deformer, turning)
+            self.deformer, self._parts = with_parts(mesh, known, self.deformer, turning, named)
         self.playable = self._playable()
         self.measurable: BoolArray = self._motion.measurable
         self.channels = self._names()
@@ -216,7 +217,11 @@ def _nose_root(mesh: TriMesh, points: FeaturePoints, axes: FloatArray) -> Featur
 
 
 def fit_fap_face(
-    mesh: TriMesh, points: FeaturePoints, variant: str = "default", progress: Progress = no_progress
+    mesh: TriMesh,
+    points: FeaturePoints,
+    variant: str = "default",
+    progress: Progress = no_progress,
+    named: NamedParts = NO_NAMES,
 ) -> FapFace:
     """Make a face playable by FAPs.
 
@@ -225,6 +230,7 @@ def fit_fap_face(
     mesh : the neutral: eyes open, mouth closed.
     points : places on it; those with MPEG-4 names count.
     variant : default, or paper for the published weights alone.
+    named : parts that the artist named.
 
     Raises
     ------
@@ -240,12 +246,11 @@ def fit_fap_face(
     mesh = mesh.checked("the face")
     if ((points.vertices < 0) | (points.vertices >= len(mesh.vertices))).any():
         raise RetargetError(f"feature points lie on vertices that the face's {len(mesh.vertices)} do not include")
-    named = [name for name in points.names if name in FDPS]
-    if not named:
+    if not any(name in FDPS for name in points.names):
         raise RetargetError(
             f"none of the {len(points)} feature points has an MPEG-4 name, expected names such as 2.1, 8.3 and 8.4"
         )
     progress(0.1, "finding what each point moves")
-    face = FapFace(mesh, points, variant)
+    face = FapFace(mesh, points, variant, named)
     progress(1.0, "fitted")
     return face

@@ -14,6 +14,7 @@ import scipy.sparse as sp
 
 from ..arrays import BoolArray, FloatArray
 from ..mesh import TriMesh
+from ..parts.kinds import NO_NAMES, NamedParts
 from ..points import FeaturePoints
 from .eyeballs import Eyeball, find_eyeballs
 from .eyelids import Lid, around_the_ball, find_lids, half_shut
@@ -74,6 +75,7 @@ def fit_deformer(
     acting: BoolArray,
     variant: str = "default",
     shut_lids: bool = True,
+    named: NamedParts = NO_NAMES,
 ) -> PointDeformer:
     """Weights of a surface's points.
 
@@ -85,12 +87,13 @@ def fit_deformer(
     acting : (P, 3) whether a point moves or holds the surface along an axis.
     variant : default, or paper for the weights as published and nothing else.
     shut_lids : whether the points of lids close them, as in acting; otherwise they are points as others are.
+    named : parts that the artist named.
 
     Raises
     ------
     RetargetError : for faces or places that do not fit.
     """
-    eyeballs = find_eyeballs(mesh, points, axes)
+    eyeballs = find_eyeballs(mesh, points, axes, named)
     acting = acting & ~_on_eyeballs(mesh, points, eyeballs)[:, None]
     if variant == "paper":
         blocks = point_weights(mesh, points, acting, variant)

@@ -7,13 +7,14 @@ travel: what the source does between them, wrinkles above all, does not.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ..acting.eyeballs import find_eyeballs
+from ..acting.eyeballs import Eyeball, find_eyeballs
 from ..acting.eyelids import Lid, find_lids
 from ..acting.fap_face import FapFace, fit_fap_face
 from ..acting.point_deformer import PointDeformer, fit_deformer
@@ -55,12 +56,12 @@ class FeaturePointRetargeter:
         self._problem = problem
         self._source, self._target = problem.source.mesh, problem.target.mesh
         self._points = points
-        self._eyes = _eye_turns(self._source, self._target, points, settings)
+        self._eyes = _eye_turns(problem, points, settings)
         self._motion: _FreeMotion | _FapMotion
         if settings.motion == "faps":
-            self._motion = _FapMotion(self._source, self._target, *points, settings)
+            self._motion = _FapMotion(problem, *points, settings)
         else:
-            self._motion = _FreeMotion(self._source, self._target, *points, settings, self._eyes.turning())
+            self._motion = _FreeMotion(problem, *points, settings, self._eyes.turning())
         self._read = points[0].positions(self._source.vertices)
 
     def frames(self, source: FloatArray) -> FloatArray:
@@ -129,19 +130,20 @@ class _FapMotion:
 
     def __init__(
         self,
-        source: TriMesh,
-        target: TriMesh,
+        problem: Problem,
         source_points: FeaturePoints,
         target_points: FeaturePoints,
         settings: FeaturePointSettings,
     ) -> None:
         known = [name for name in source_points.names if name in FDPS]
         self._rows = source_points.index(known)
-        places = source_points.subset(known).positions(source.vertices)
+        places = source_points.subset(known).positions(problem.source.mesh.vertices)
         axes = head_axes(known, places)
         fapu = measure_fapu(known, places, axes)
         self._channels = PointChannels(known, places, axes, fapu)
-        self._face: FapFace = fit_fap_face(target, target_points, settings.variant)
+        self._face: FapFace = fit_fap_face(
+            problem.target.mesh, target_points, settings.variant, named=problem.target.named_parts
+        )
         self.deformer = self._face.deformer
         self.warnings = self._face.report["warnings"]
         self.report = {
@@ -161,13 +163,13 @@ class _FreeMotion:
 
     def __init__(
         self,
-        source: TriMesh,
-        target: TriMesh,
+        problem: Problem,
         source_points: FeaturePoints,
         target_points: FeaturePoints,
         settings: FeaturePointSettings,
         turning: BoolArray,
     ) -> None:
+        source, target, named = problem.source.mesh, problem.target.mesh, problem.target.named_parts
         names = source_points.names
         places = [source_points.positions(source.vertices), target_points.positions(target.vertices)]
         self._axes = [head_axes(names, there) for there in places]
@@ -175,11 +177,14 @@ class _FreeMotion:
         lengths = point_lengths(names, places[0], fapus)
         self._scale = lengths[1] / lengths[0]
         acting = np.ones((len(names), 3), bool)
-        self.deformer: PointDeformer = fit_deformer(target, target_points, self._axes[1], acting, settings.variant)
+        self.deformer: PointDeformer = fit_deformer(
+            target, target_points, self._axes[1], acting, settings.variant, named=named
+        )
         parts: list[dict[str, Any]] = []
         if settings.variant == "default":
-            self.deformer, parts = with_parts(target, target_points, self.deformer, turning)
-        self._lids = _lid_pairs(source, source_points, self._axes[0], self.deformer.lids)
+            self.deformer, parts = with_parts(target, target_points, self.deformer, turning, named)
+        balls = find_eyeballs(source, source_points, self._axes[0], problem.source.named_parts)
+        self._lids = _lid_pairs(source, source_points, balls, self.deformer.lids)
         self._neutral = target.vertices.astype(np.float32)
         self.warnings = list(self.deformer.warnings)
         self.report = {"fapu": {"source": fapus[0].taken, "target": fapus[1].taken}, "parts": parts}
@@ -198,16 +203,16 @@ class _FreeMotion:
 
 
 def _eye_turns(
-    source: TriMesh, target: TriMesh, points: tuple[FeaturePoints, FeaturePoints], settings: FeaturePointSettings
+    problem: Problem, points: tuple[FeaturePoints, FeaturePoints], settings: FeaturePointSettings
 ) -> EyeTurns:
     """The eyeballs that both faces have; the published variant leaves them where they are."""
-    own = np.full(len(target.vertices), settings.variant == "paper")
-    return pair_eyeballs(source, points[0], target, points[1], own)
+    own = np.full(len(problem.target.mesh.vertices), settings.variant == "paper")
+    return pair_eyeballs(replace(problem.source, points=points[0]), replace(problem.target, points=points[1]), own)
 
 
 def _lid_pairs(
-    source: TriMesh, points: FeaturePoints, axes: FloatArray, lids: tuple[Lid, ...]
+    source: TriMesh, points: FeaturePoints, eyeballs: Mapping[str, Eyeball], lids: tuple[Lid, ...]
 ) -> list[tuple[int, Lid, Lid]]:
     """The row of each lid's middle, and the lid on the source and on the target."""
-    ours = {lid.middle: lid for lid in find_lids(source, points, find_eyeballs(source, points, axes))}
+    ours = {lid.middle: lid for lid in find_lids(source, points, eyeballs)}
     return [(int(points.index([lid.middle])[0]), ours[lid.middle], lid) for lid in lids if lid.middle in ours]

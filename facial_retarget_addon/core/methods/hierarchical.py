@@ -21,7 +21,6 @@ from ..levels.level_gains import scale_fine, scale_levels
 from ..pair import Pair, prepare_pair
 from ..paper_motion import PaperMotion
 from ..parts.carried_parts import CarriedParts, carried_parts
-from ..parts.eyes import pair_eyeballs
 from ..parts.report import still_components
 from ..problem import Problem
 from ..steering.rbf import MultiquadricMaps, fit_multiquadrics
@@ -98,7 +97,7 @@ class HierarchicalRetargeter:
         frames = self._checked(source)
         moved = self._steered(frames, self._motion(frames))
         if self._parts is not None:
-            moved = self._parts.eyes.add_to(self._parts.following.add_to(moved), frames)
+            moved = self._parts.add_to(moved, frames)
         moved += self._target
         return moved
 
@@ -211,8 +210,7 @@ def _parts(problem: Problem, pair: Pair, examples: list[Example]) -> CarriedPart
     own = np.zeros(len(pair.target.vertices), bool)
     for example in examples:
         own |= np.abs(example.target).max(axis=1) > _STILL * pair.target_separation
-    eyes = pair_eyeballs(pair.source, problem.source.points, pair.target, problem.target.points, own)
-    return carried_parts(pair.target, problem.target.points, eyes, own)
+    return carried_parts(problem.source, problem.target, own)
 
 
 def _steering(

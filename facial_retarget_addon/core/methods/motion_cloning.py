@@ -25,7 +25,6 @@ from ..mpeg4.fapu import Fapu, measure_fapu
 from ..mpeg4.head import head_axes
 from ..mpeg4.regions import OWN_PARTS, point_lengths
 from ..parts.carried_parts import CarriedParts, carried_parts
-from ..parts.eyes import pair_eyeballs
 from ..parts.report import still_components
 from ..points import common_names
 from ..problem import Problem
@@ -71,7 +70,7 @@ class MotionCloningRetargeter:
             raise RetargetError(f"source frames have shape {source.shape}, expected (F, {len(self._source)}, 3)")
         normalised = ((source.astype(np.float32) - self._source) @ self._read) * self._per_length
         moved = turn(apply_matrix(self._matrix, normalised), self._turns)
-        moved = self._parts.eyes.add_to(self._parts.following.add_to(moved), source)
+        moved = self._parts.add_to(moved, source)
         moved += self._target
         return moved
 
@@ -146,9 +145,7 @@ def fit(problem: Problem, settings: MotionCloningSettings, progress: Progress = 
     turns = axes[1].T * lengths[1][:, None]
     if settings.motion == "local":
         turns = _local_turns(problem, matrix, axes[1].T @ axes[0], marks[1], fapus[1].es) @ turns
-    own = np.zeros(len(target.vertices), bool)
-    eyes = pair_eyeballs(source, problem.source.points, target, problem.target.points, own)
-    parts = carried_parts(target, problem.target.points, eyes, own)
+    parts = carried_parts(problem.source, problem.target, np.zeros(len(target.vertices), bool))
     retargeter = MotionCloningRetargeter(problem, matrix, axes[0], lengths[0], turns, fapus, parts)
     progress(1.0, "fitted")
     return retargeter

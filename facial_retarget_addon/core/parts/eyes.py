@@ -9,10 +9,9 @@ import numpy as np
 from ..acting.eyeballs import Eyeball, find_eyeballs
 from ..arrays import BoolArray, FloatArray
 from ..base.regions import eye_separation
-from ..mesh import TriMesh
 from ..mpeg4.fdps import FDPS
 from ..mpeg4.head import head_axes
-from ..points import FeaturePoints
+from ..problem import Face
 from ..rigid import closest_rotations
 from .find import NEEDED
 
@@ -59,28 +58,28 @@ class EyeTurns:
         return mask
 
 
-def pair_eyeballs(
-    source: TriMesh, source_points: FeaturePoints, target: TriMesh, target_points: FeaturePoints, own: BoolArray
-) -> EyeTurns:
+def pair_eyeballs(source: Face, target: Face, own: BoolArray) -> EyeTurns:
     """The eyeballs that both faces have, by side.
 
     Parameters
     ----------
-    source_points, target_points : those with MPEG-4 names count; without `NEEDED` among them no eyeball is found.
+    source, target : points with MPEG-4 names count; without `NEEDED` among them no eyeball is found.
     own : (Vt,) vertices that have motion of their own: their eyeballs are left to it.
     """
-    faces = ((source, source_points), (target, target_points))
+    faces = source, target
     # Frames are float32: what does not move must not turn by the rounding of its neutral.
-    source_rest = source.vertices.astype(np.float32).astype(np.float64)
-    if not all(set(points.names) >= NEEDED for _, points in faces):
-        return EyeTurns((), source_rest, target.vertices, np.eye(3), 1.0)
-    known = [points.subset([name for name in points.names if name in FDPS]) for _, points in faces]
-    axes = [head_axes(p.names, p.positions(mesh.vertices)) for p, (mesh, _) in zip(known, faces, strict=True)]
-    ours, theirs = (find_eyeballs(mesh, p, a) for (mesh, _), p, a in zip(faces, known, axes, strict=True))
+    source_rest = source.mesh.vertices.astype(np.float32).astype(np.float64)
+    if not all(set(points.names) >= NEEDED for points in (face.points for face in faces)):
+        return EyeTurns((), source_rest, target.mesh.vertices, np.eye(3), 1.0)
+    known = [face.points.subset([name for name in face.points.names if name in FDPS]) for face in faces]
+    axes = [head_axes(p.names, p.positions(face.mesh.vertices)) for p, face in zip(known, faces, strict=True)]
+    ours, theirs = (
+        find_eyeballs(face.mesh, p, a, face.named_parts) for face, p, a in zip(faces, known, axes, strict=True)
+    )
     pairs = tuple(
         (eye, theirs[side])
         for side, eye in ours.items()
         if side in theirs and len(eye.vertices) and len(theirs[side].vertices) and not own[theirs[side].vertices].any()
     )
-    scale = eye_separation(target, known[1]) / eye_separation(source, known[0])
-    return EyeTurns(pairs, source_rest, target.vertices, axes[1].T @ axes[0], scale)
+    scale = eye_separation(target.mesh, known[1]) / eye_separation(source.mesh, known[0])
+    return EyeTurns(pairs, source_rest, target.mesh.vertices, axes[1].T @ axes[0], scale)

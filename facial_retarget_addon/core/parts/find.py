@@ -16,11 +16,23 @@ from ..mesh import TriMesh
 from ..mpeg4.mean_face import place_missing
 from ..mpeg4.regions import OWN_PARTS
 from ..points import FeaturePoints
+from .kinds import (
+    ACROSS,
+    AROUND_EYE,
+    BEARD,
+    BOTH,
+    BROW,
+    EYEBALL,
+    LOWER,
+    MOUSTACHE,
+    NAMED_KINDS,
+    NO_NAMES,
+    OTHER,
+    UPPER,
+    NamedParts,
+    eyeball_name,
+)
 
-EYEBALL, AROUND_EYE = "eyeball", "around an eye"
-UPPER, LOWER, BOTH = "upper part of the mouth", "lower part of the mouth", "inside of the mouth"
-BROW, MOUSTACHE, BEARD = "brow", "moustache", "beard"
-ACROSS, OTHER = "behind the mouth", "other"
 HAIRS = {BROW: ("4.1", "4.2", "4.3", "4.4", "4.5", "4.6"), MOUSTACHE: ("8.1", "9.15"), BEARD: ("2.1", "2.10", "8.2")}
 """Hair on the face -> FDPs that it grows around."""
 
@@ -59,7 +71,8 @@ OPENING = 0.25
 SOCKET_SHARE = 0.2
 """A component of which more than this share belongs into the socket is none around an eye."""
 
-
+NAMED = "named {}"
+"""The reason of a part that the artist named."""
 SPANNING = "behind the lips, far above and below their line"
 """The reason of a part across both halves; it is `ACROSS` where no teeth of both rows show where it parts."""
 
@@ -73,7 +86,11 @@ class Part(NamedTuple):
 
 
 def find_parts(
-    mesh: TriMesh, points: FeaturePoints, axes: FloatArray, eyeballs: Mapping[str, Eyeball]
+    mesh: TriMesh,
+    points: FeaturePoints,
+    axes: FloatArray,
+    eyeballs: Mapping[str, Eyeball],
+    named: NamedParts = NO_NAMES,
 ) -> tuple[Part, ...]:
     """Every component that holds no feature point of the skin, with what it is; in order of first vertices.
 
@@ -84,6 +101,7 @@ def find_parts(
     points : at least one on the skin. Without chin, brows and corners of the mouth every part is `OTHER`.
     axes : (3, 3) of the head.
     eyeballs : by side.
+    named : parts that the artist named; they are what their names say.
     """
     order = np.argsort(mesh.components, kind="stable")
     starts = np.unique(mesh.components[order], return_index=True)[1]
@@ -91,7 +109,10 @@ def find_parts(
     skin = np.flatnonzero(np.isin(np.arange(len(groups)), mesh.components[_on_skin(points).vertices[:, 0]]))
     loose = np.setdiff1d(np.arange(len(mesh.vertices)), mesh.faces)
     labels = np.setdiff1d(np.arange(len(groups)), np.concatenate([skin, mesh.components[loose]])).tolist()
-    parts = [Part(OTHER, loose, "vertices without faces")]
+    called = {int(k): name for name, held in named.items() for k in np.unique(mesh.components[held])}
+    labels = [k for k in labels if k not in called]
+    parts = [Part(OTHER, loose[~np.isin(mesh.components[loose], list(called))], "vertices without faces")]
+    parts += [Part(NAMED_KINDS[name], groups[k], NAMED.format(name)) for k, name in called.items()]
     if not set(points.names) >= NEEDED:
         reason = "the points do not show where eyes and mouth are"
         return _in_order(parts + [Part(OTHER, groups[k], reason) for k in labels])
@@ -99,8 +120,12 @@ def find_parts(
     corners = tuple(op.reduceat(places[order], starts, axis=0) for op in (np.minimum, np.maximum))
     head = _Head.measured(mesh, points, axes, skin)
     balls = {k: eye for eye in eyeballs.values() for k in np.unique(mesh.components[eye.vertices]).tolist()}
+    parts += [
+        Part(EYEBALL, eye.vertices, f"round, behind the {eye.side} lids")
+        for eye in eyeballs.values()
+        if eyeball_name(eye.side) not in named
+    ]
     rows = _rows_of_teeth(mesh, points)
-    parts += [Part(EYEBALL, eye.vertices, f"round, behind the {eye.side} lids") for eye in eyeballs.values()]
     for k in labels:
         if k not in balls:
             kind, reason = head.kind(places[groups[k]], corners[0][k], corners[1][k], rows.get(k, set()))

@@ -17,11 +17,12 @@ from ..mesh import TriMesh
 from ..mpeg4.mean_face import place_missing
 from ..mpeg4.regions import OWN_PARTS
 from ..points import FeaturePoints, place_matrix
-from .find import AROUND_EYE, BEARD, BOTH, BROW, LOWER, MOUSTACHE, UPPER, Part
+from .find import NEEDED, Part
+from .kinds import AROUND_EYE, BEARD, BOTH, BROW, LOWER, MOUSTACHE, TONGUE, UPPER
 
 ON_SKIN = (AROUND_EYE, BROW, MOUSTACHE, BEARD)
 """Kinds of parts that ride on the skin."""
-WITH_JAW = (LOWER, BOTH)
+WITH_JAW = (LOWER, TONGUE, BOTH)
 """Kinds that the jaw takes along, whole or their lower half."""
 ROOTS = 0.015
 """A part is rooted where it comes as near to the skin as it does anywhere, and this much, in eye separations."""
@@ -82,7 +83,7 @@ def fit_following(mesh: TriMesh, points: FeaturePoints, axes: FloatArray, parts:
     count = len(mesh.vertices)
     with_skin = _on_skin(mesh, points, parts)
     follows = sp.kron(with_skin, sp.identity(3), format="csr")
-    if any(part.kind in WITH_JAW for part in parts):
+    if set(points.names) >= NEEDED and any(part.kind in WITH_JAW for part in parts):
         follows = follows + _with_jaw(mesh, points, axes, parts)
     entries = follows.tocoo()
     entries.eliminate_zeros()
@@ -137,7 +138,7 @@ def _with_jaw(mesh: TriMesh, points: FeaturePoints, axes: FloatArray, parts: Seq
     # The top of the spine lies a little behind the jaw's hinge.
     where = place_missing(points.names, points.positions(places), ("2.1", "2.2", "2.3", "7.1"))
     lips = 0.5 * (where["2.2"] + where["2.3"])
-    share = _members(mesh, parts, (LOWER,)).astype(float)
+    share = _members(mesh, parts, (LOWER, TONGUE)).astype(float)
     split = _members(mesh, parts, (BOTH,))
     if split.any():
         rows = [places[_members(mesh, parts, (kind,))] for kind in (UPPER, LOWER)]

@@ -9,7 +9,8 @@ import numpy as np
 
 from ..arrays import BoolArray
 from ..mesh import TriMesh
-from .find import AROUND_EYE, BEARD, BOTH, BROW, LOWER, MOUSTACHE, Part
+from .find import Part
+from .kinds import AROUND_EYE, BEARD, BOTH, BROW, LOWER, MOUSTACHE, TONGUE
 
 FOLLOWS = {
     AROUND_EYE: "rides on the skin of the lids",
@@ -17,6 +18,7 @@ FOLLOWS = {
     MOUSTACHE: "rides on the skin",
     BEARD: "rides on the skin",
     LOWER: "goes with the chin",
+    TONGUE: "goes with the chin",
     BOTH: "its lower half goes with the chin",
 }
 """Kind of part -> how it follows, when it does."""
