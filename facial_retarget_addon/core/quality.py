@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -66,6 +67,10 @@ class Quality:
         tight[-1] = False
         calm: FloatArray = tight[self.counterpart]
         return calm
+
+    def per_frame(self) -> Mapping[str, Sequence[float]]:
+        """What was measured of each frame: name -> a figure for each."""
+        return {"torn_edges": self.torn, "flipped_triangles": self.flipped}
 
     def summary(self) -> dict[str, float | int]:
         """Plain figures over all frames; frames are counted from 1."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from time import perf_counter
 from typing import Any
@@ -22,10 +23,11 @@ BLOCK = 16
 
 @dataclass(frozen=True, eq=False)
 class Result:
-    """frames (F, Vt, 3) float32 in the target's units, and the report as plain data."""
+    """frames (F, Vt, 3) float32 in the target's units, the report as plain data, and the figures of each frame."""
 
     frames: FloatArray
     report: dict[str, Any]
+    per_frame: Mapping[str, Sequence[float]]
 
 
 def retarget(
@@ -77,4 +79,4 @@ def retarget(
             "quality": measuring,
         },
     }
-    return Result(result, report)
+    return Result(result, report, quality.per_frame())
