@@ -1,0 +1,108 @@
+"""Which features of a head a shape acts on, and which of them another head lacks."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from ..acting.eyeballs import find_eyeballs
+from ..arrays import FloatArray
+from ..mpeg4.fdps import FDPS
+from ..mpeg4.head import LEFT, head_axes
+from ..mpeg4.regions import OWN_PARTS, TEETH
+from ..parts.find import ACROSS, BOTH, LOWER, NEEDED, UPPER, find_parts
+from ..problem import Face
+
+MOSTLY = 0.5
+"""Share of a shape's motion, squared and by area, that lies on features from which the shape acts on them."""
+SLIGHTLY = 0.01
+"""A smaller share does not count."""
+EYEBALLS = {"left": "left eyeball", "right": "right eyeball"}
+_IN_MOUTH = (LOWER, UPPER, BOTH, ACROSS)
+_JAW = ("2.1", "2.10", "2.11", "2.12", "2.13", "2.14")
+_FEATURES = {2: "mouth", 5: "cheek", 6: "tongue", 7: "neck", 8: "mouth", 9: "nose", 10: "ear", 11: "forehead"}
+
+
+def feature_of(name: str) -> str:
+    """The feature of a face that an FDP belongs to: mouth, jaw, left eye, right brow, tongue, teeth, ..."""
+    group = int(name.split(".")[0])
+    if name in _JAW:
+        return "jaw"
+    if name in TEETH:
+        return "teeth"
+    if group in (3, 4):
+        return f"{'left' if name in LEFT else 'right'} {'eye' if group == 3 else 'brow'}"
+    return _FEATURES[group]
+
+
+class Features:
+    """The features of a head, vertex by vertex: eyeballs, the inside of the mouth, elsewhere the nearest point's.
+
+    Parameters
+    ----------
+    face : its points with MPEG-4 names count.
+    """
+
+    def __init__(self, face: Face) -> None:
+        mesh = face.mesh
+        known = face.points.subset([name for name in face.points.names if name in FDPS])
+        self._names: list[str] = []
+        self._label = np.zeros(len(mesh.vertices), np.int64)
+        self._areas = mesh.vertex_areas
+        skin = known.subset([name for name in known.names if name not in OWN_PARTS])
+        if len(skin):
+            rows = np.array([self._row(feature_of(name)) for name in skin.names])
+            self._label = rows[cKDTree(skin.positions(mesh.vertices)).query(mesh.vertices)[1]]
+        has = {feature_of(name) for name in known.names}
+        if set(known.names) >= NEEDED:
+            axes = head_axes(known.names, known.positions(mesh.vertices))
+            eyeballs = find_eyeballs(mesh, known, axes)
+            for part in find_parts(mesh, known, axes, eyeballs):
+                if part.kind in _IN_MOUTH:
+                    self._label[part.vertices] = self._row("mouth")
+            for side, eye in eyeballs.items():
+                self._label[eye.vertices] = self._row(EYEBALLS[side])
+                has |= {EYEBALLS[side]} if len(eye.vertices) else set()
+        self.has = frozenset(has)
+        """Features that the head has."""
+
+    def _row(self, feature: str) -> int:
+        if feature not in self._names:
+            self._names.append(feature)
+        return self._names.index(feature)
+
+    def shares(self, displacements: FloatArray) -> dict[str, float]:
+        """How much of the motion (V, 3), squared and by area, lies on each feature; the most first.
+
+        Empty where nothing moves.
+        """
+        energy = np.square(displacements, dtype=np.float64).sum(axis=1) * self._areas
+        total = energy.sum()
+        if not total > 0 or not self._names:
+            return {}
+        share = np.bincount(self._label, energy, len(self._names)) / total
+        return {self._names[k]: float(share[k]) for k in np.argsort(-share, kind="stable") if share[k] > 0}
+
+
+def missing(shares: Mapping[str, float], has: frozenset[str]) -> list[str]:
+    """The features that a shape acts on mostly and that a head lacks; none where the head has enough of them.
+
+    Eyeballs count only for a shape that acts on nothing else: lids go with a gaze on a head without eyeballs too.
+    """
+    slight = {feature: share for feature, share in shares.items() if share >= SLIGHTLY}
+    counted = {feature: share for feature, share in slight.items() if feature not in EYEBALLS.values()} or slight
+    lacking = [feature for feature in counted if feature not in has]
+    enough = sum(counted[feature] for feature in lacking) >= MOSTLY * sum(counted.values())
+    return lacking if lacking and enough else []
+
+
+def missing_eyeballs(shares: Mapping[str, float], has: frozenset[str]) -> list[str]:
+    """The eyeballs that a shape moves and that a head lacks."""
+    return [eye for eye in EYEBALLS.values() if shares.get(eye, 0.0) >= SLIGHTLY and eye not in has]
+
+
+def listed_features(features: Sequence[str]) -> str:
+    """Features for a sentence: 'left eye and mouth'."""
+    return " and ".join(features) if len(features) < 3 else f"{', '.join(features[:-1])} and {features[-1]}"
