@@ -12,15 +12,16 @@ from ..arrays import FloatArray
 from ..mpeg4.fdps import FDPS
 from ..mpeg4.head import LEFT, head_axes
 from ..mpeg4.regions import OWN_PARTS, TEETH
-from ..parts.find import ACROSS, BOTH, LOWER, NEEDED, UPPER, find_parts
+from ..parts.find import NEEDED, find_parts
+from ..parts.kinds import ACROSS, BOTH, LOWER, TONGUE, UPPER, eyeball_name
 from ..problem import Face
 
 MOSTLY = 0.5
 """Share of a shape's motion, squared and by area, that lies on features from which the shape acts on them."""
 SLIGHTLY = 0.01
 """A smaller share does not count."""
-EYEBALLS = {"left": "left eyeball", "right": "right eyeball"}
-_IN_MOUTH = (LOWER, UPPER, BOTH, ACROSS)
+EYEBALLS = (eyeball_name("left"), eyeball_name("right"))
+_IN_MOUTH = {LOWER: "mouth", UPPER: "mouth", BOTH: "mouth", ACROSS: "mouth", TONGUE: "tongue"}
 _JAW = ("2.1", "2.10", "2.11", "2.12", "2.13", "2.14")
 _FEATURES = {2: "mouth", 5: "cheek", 6: "tongue", 7: "neck", 8: "mouth", 9: "nose", 10: "ear", 11: "forehead"}
 
@@ -56,15 +57,19 @@ class Features:
             rows = np.array([self._row(feature_of(name)) for name in skin.names])
             self._label = rows[cKDTree(skin.positions(mesh.vertices)).query(mesh.vertices)[1]]
         has = {feature_of(name) for name in known.names}
-        if set(known.names) >= NEEDED:
-            axes = head_axes(known.names, known.positions(mesh.vertices))
-            eyeballs = find_eyeballs(mesh, known, axes)
-            for part in find_parts(mesh, known, axes, eyeballs):
+        if len(skin):
+            axes = np.eye(3)
+            if set(known.names) >= NEEDED:
+                axes = head_axes(known.names, known.positions(mesh.vertices))
+            eyeballs = find_eyeballs(mesh, known, axes, face.named_parts)
+            for part in find_parts(mesh, known, axes, eyeballs, face.named_parts):
                 if part.kind in _IN_MOUTH:
-                    self._label[part.vertices] = self._row("mouth")
+                    self._label[part.vertices] = self._row(_IN_MOUTH[part.kind])
+                    has.add(_IN_MOUTH[part.kind])
             for side, eye in eyeballs.items():
-                self._label[eye.vertices] = self._row(EYEBALLS[side])
-                has |= {EYEBALLS[side]} if len(eye.vertices) else set()
+                if len(eye.vertices):
+                    self._label[eye.vertices] = self._row(eyeball_name(side))
+                    has.add(eyeball_name(side))
         self.has = frozenset(has)
         """Features that the head has."""
 
@@ -92,7 +97,7 @@ def missing(shares: Mapping[str, float], has: frozenset[str]) -> list[str]:
     Eyeballs count only for a shape that acts on nothing else: lids go with a gaze on a head without eyeballs too.
     """
     slight = {feature: share for feature, share in shares.items() if share >= SLIGHTLY}
-    counted = {feature: share for feature, share in slight.items() if feature not in EYEBALLS.values()} or slight
+    counted = {feature: share for feature, share in slight.items() if feature not in EYEBALLS} or slight
     lacking = [feature for feature in counted if feature not in has]
     enough = sum(counted[feature] for feature in lacking) >= MOSTLY * sum(counted.values())
     return lacking if lacking and enough else []
@@ -100,7 +105,7 @@ def missing(shares: Mapping[str, float], has: frozenset[str]) -> list[str]:
 
 def missing_eyeballs(shares: Mapping[str, float], has: frozenset[str]) -> list[str]:
     """The eyeballs that a shape moves and that a head lacks."""
-    return [eye for eye in EYEBALLS.values() if shares.get(eye, 0.0) >= SLIGHTLY and eye not in has]
+    return [eye for eye in EYEBALLS if shares.get(eye, 0.0) >= SLIGHTLY and eye not in has]
 
 
 def listed_features(features: Sequence[str]) -> str:
