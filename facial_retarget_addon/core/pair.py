@@ -27,6 +27,7 @@ from .problem import Problem
 from .raycast import CasterFactory
 from .rigid import Similarity, fit_similarity
 from .source_reader import SourceReader
+from .steering.learned import SteeringBase
 
 _REACH = 0.5
 """Eye separations beyond the base's border over which its own motion fades into the carried one."""
@@ -111,6 +112,12 @@ class Pair:
         found = self.correspondence
         corner = self.source.faces[found.face][np.arange(len(found.face)), found.weights.argmax(axis=1)]
         return np.where((found.face >= 0) & (found.confidence > 0), corner, -1)
+
+    @cached_property
+    def steering_base(self) -> SteeringBase:
+        """Where examples are told apart."""
+        points, separations = (self.source_points, self.target_points), (self.source_separation, self.target_separation)
+        return SteeringBase(self.source, self.target, *points, *separations)
 
     def linear_motion(self, matrix: sp.csr_matrix, places: FloatArray, local: bool) -> LinearMotion:
         """Motion of target places (V, 3) that a matrix (V, Vs) takes from the source.

@@ -23,7 +23,7 @@ RESOLUTION = {"hierarchical": 0.03, "feature_points": 0.35, "motion_cloning": 0.
 QUICK: dict[str, dict[str, object]] = {"hierarchical": {"levels": 2}, "feature_points": {}, "motion_cloning": {}}
 """Method -> settings that are quick to fit."""
 
-STEERED = ("hierarchical",)
+STEERED = ("hierarchical", "motion_cloning")
 """Methods that examples steer; the others say that they do not use them."""
 
 VARIANTS = [

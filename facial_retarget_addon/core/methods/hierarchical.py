@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -23,22 +23,12 @@ from ..paper_motion import PaperMotion
 from ..parts.carried_parts import CarriedParts, carried_parts
 from ..parts.report import still_components
 from ..problem import Problem
+from ..steering.learned import Example, Steering, learn
 from ..steering.rbf import MultiquadricMaps, fit_multiquadrics
-from ..steering.residuals import ExamplePairs, ExampleRegions, ExampleResiduals
 from .settings import HierarchicalSettings
 
-_STILL = 1e-6
-"""Eye separations: an example whose base moves less is the neutral."""
 _MERGE = 1e-3
 """Eye separations: the paper's multiquadric centres closer than this are one."""
-
-
-class Example(NamedTuple):
-    """An example's displacements: source (Vs, 3), target (Vt, 3)."""
-
-    name: str
-    source: FloatArray
-    target: FloatArray
 
 
 class HierarchicalRetargeter:
@@ -49,7 +39,7 @@ class HierarchicalRetargeter:
     pair : the two faces.
     motion : of the target's vertices, before the examples.
     make_fine_motion : gives the motion of the target's finest level, made when it is first asked for.
-    residuals : what the examples add; None without any.
+    steering : what the examples add; None without any.
     figures : of the examples, for the report.
     parts : what follows the skin, and the eyeballs; None for nothing.
     """
@@ -59,15 +49,14 @@ class HierarchicalRetargeter:
         pair: Pair,
         motion: Motion,
         make_fine_motion: Callable[[], Motion],
-        residuals: ExampleResiduals | None,
+        steering: Steering | None,
         figures: list[dict[str, Any]],
         parts: CarriedParts | None = None,
     ) -> None:
         self._pair, self._motion, self._make_fine_motion = pair, motion, make_fine_motion
-        self._residuals, self._figures, self._parts = residuals, figures, parts
+        self._steering, self._figures, self._parts = steering, figures, parts
         self._source = pair.source.vertices.astype(np.float32)
         self._target = pair.target.vertices.astype(np.float32)
-        self._base = pair.source_points.matrix(len(self._source)).astype(np.float32)
 
     @cached_property
     def report(self) -> Mapping[str, Any]:
@@ -105,7 +94,7 @@ class HierarchicalRetargeter:
         """The finest normal mesh of source frames (F, Vs, 3): positions (F, N, 3) float32, faces (M, 3)."""
         frames, finest = self._checked(source), self._pair.finest
         fine = self._fine_motion(frames)
-        if self._residuals is not None:
+        if self._steering is not None:
             carried = self._motion(frames)
             fine += apply_matrix(self._pair.fine_places.astype(np.float32), self._steered(frames, carried) - carried)
         fine += finest.positions.astype(np.float32)
@@ -116,9 +105,7 @@ class HierarchicalRetargeter:
         return self._make_fine_motion()
 
     def _steered(self, frames: FloatArray, carried: FloatArray) -> FloatArray:
-        if self._residuals is None:
-            return carried
-        return self._residuals.steer(carried, apply_matrix(self._base, frames - self._source))
+        return carried if self._steering is None else self._steering.steer(carried, frames)
 
     def _checked(self, source: FloatArray) -> FloatArray:
         if source.ndim != 3 or source.shape[1:] != self._source.shape:
@@ -138,44 +125,16 @@ def fit(problem: Problem, settings: HierarchicalSettings, progress: Progress = n
     Na and Jung 2004, sections 3 and 4.
     """
     pair = prepare_pair(problem, settings.levels, settings.base_points, lambda share, what: progress(0.9 * share, what))
-    examples = read_examples(problem, pair)
+    examples = pair.steering_base.examples(problem)
     progress(0.9, "preparing the motion")
     if settings.variant == "paper":
         retargeter = _paper(pair, settings, examples)
     else:
-        retargeter = _default(pair, settings, examples, _parts(problem, pair, examples))
+        # Parts that an example moves are left to the examples.
+        parts = carried_parts(problem.source, problem.target, pair.steering_base.moved(examples))
+        retargeter = _default(pair, settings, examples, parts)
     progress(1.0, "fitted")
     return retargeter
-
-
-def read_examples(problem: Problem, pair: Pair) -> list[Example]:
-    """The problem's examples as displacements, without those that are the neutral on both faces.
-
-    Raises
-    ------
-    RetargetError : for an example on one face only, of another vertex count, or that moves the target alone.
-    """
-    here, there = problem.source.examples, problem.target.examples
-    found = []
-    for name in [*here, *(name for name in there if name not in here)]:
-        if name not in here or name not in there:
-            missing = "source" if name not in here else "target"
-            raise RetargetError(f"example {name!r} is missing on the {missing}, expected one on each face")
-        for which, positions, mesh in (("source", here[name], pair.source), ("target", there[name], pair.target)):
-            if np.shape(positions) != mesh.vertices.shape:
-                raise RetargetError(
-                    f"example {name!r} of the {which} has shape {np.shape(positions)}, "
-                    f"expected {mesh.vertices.shape} like its neutral"
-                )
-        example = Example(name, here[name] - pair.source.vertices, there[name] - pair.target.vertices)
-        base_motion = np.abs(pair.source_points.positions(example.source)).max(initial=0.0)
-        if base_motion > _STILL * pair.source_separation:
-            found.append(example)
-        elif np.abs(example.target).max(initial=0.0) > _STILL * pair.target_separation:
-            raise RetargetError(
-                f"example {name!r} moves the target but not the source's feature points, expected motion on both"
-            )
-    return found
 
 
 # ---- the default variant ------------------------------------------------------------------------
@@ -201,45 +160,9 @@ def _default(
 
     if settings.read == "pierce":
         motion = BlendedMotion(fine_motion(), pair.binding, motion)
-    residuals, figures = _steering(pair, examples, motion, settings.example_strength)
-    return HierarchicalRetargeter(pair, motion, fine_motion, residuals, figures, parts)
-
-
-def _parts(problem: Problem, pair: Pair, examples: list[Example]) -> CarriedParts:
-    """What follows the target's skin, and its eyeballs; parts that an example moves are left to the examples."""
-    own = np.zeros(len(pair.target.vertices), bool)
-    for example in examples:
-        own |= np.abs(example.target).max(axis=1) > _STILL * pair.target_separation
-    return carried_parts(problem.source, problem.target, own)
-
-
-def _steering(
-    pair: Pair, examples: list[Example], motion: Motion, trust: float
-) -> tuple[ExampleResiduals | None, list[dict[str, Any]]]:
-    """What the examples add to a motion, and how well they are met."""
-    if not examples or trust == 0:
-        return None, []
-    source = np.stack([example.source for example in examples])
-    base = np.stack([pair.source_points.positions(displacement) for displacement in source])
-    carried = motion((pair.source.vertices + source).astype(np.float32))
-    pairs = ExamplePairs(base, carried, np.stack([example.target for example in examples]))
-    regions = ExampleRegions(
-        pair.source_base,
-        pair.source_separation,
-        pair.target_base,
-        pair.target.vertices,
-        pair.target.vertex_areas,
-        pair.target_separation,
-    )
-    residuals = regions.fit(pairs, trust)
-    figures = []
-    for m, example in enumerate(examples):
-        met = residuals.steer(carried[m : m + 1], base[m : m + 1])[0]
-        figure = {"name": example.name, "fit": _relative_error(pair, met, example.target)}
-        if len(examples) > 1:
-            figure["leave_one_out"] = _relative_error(pair, regions.leave_one_out(pairs, m, trust), example.target)
-        figures.append(figure)
-    return residuals, figures
+    steering = learn(pair.steering_base, examples, motion, settings.example_strength)
+    figures = [] if steering is None else steering.figures
+    return HierarchicalRetargeter(pair, motion, fine_motion, steering, figures, parts)
 
 
 # ---- the published variant ----------------------------------------------------------------------
@@ -253,7 +176,7 @@ def _paper(pair: Pair, settings: HierarchicalSettings, examples: list[Example]) 
     figures = []
     for example in examples:
         moved = motion((pair.source.vertices + example.source).astype(np.float32)[None])[0]
-        figures.append({"name": example.name, "fit": _relative_error(pair, moved, example.target)})
+        figures.append({"name": example.name, "fit": pair.steering_base.error(moved, example.target)})
     return HierarchicalRetargeter(pair, motion, lambda: paper, None, figures)
 
 
@@ -273,10 +196,3 @@ def _base_maps(pair: Pair, examples: list[Example]) -> MultiquadricMaps:
         linear=False,
     )
     return maps.turned(rotation)
-
-
-def _relative_error(pair: Pair, moved: FloatArray, wanted: FloatArray) -> float:
-    """Norm of the error over the norm of the wanted motion, weighted by area."""
-    areas = pair.target.vertex_areas
-    error, size = (float(areas @ np.square(values).sum(axis=1)) for values in (moved - wanted, wanted))
-    return float(np.sqrt(error / size)) if size > 0 else 0.0

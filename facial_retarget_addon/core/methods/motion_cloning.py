@@ -28,6 +28,7 @@ from ..parts.carried_parts import CarriedParts, carried_parts
 from ..parts.report import still_components
 from ..points import common_names
 from ..problem import Problem
+from ..steering.learned import Steering, SteeringBase, learn
 from .settings import MotionCloningSettings
 
 _AGREEMENT = 0.3
@@ -58,6 +59,8 @@ class MotionCloningRetargeter:
         parts: CarriedParts,
     ) -> None:
         self._problem, self._fapus, self._parts = problem, fapus, parts
+        self._steering: Steering | None = None
+        self._taught = np.zeros(len(problem.target.mesh.vertices), bool)
         self._matrix, self._turns = matrix.astype(np.float32), turns.astype(np.float32)
         self._read, self._per_length = read.T.astype(np.float32), (1 / lengths).astype(np.float32)
         self._source = problem.source.mesh.vertices.astype(np.float32)
@@ -68,11 +71,31 @@ class MotionCloningRetargeter:
         source = np.asarray(source)
         if source.ndim != 3 or source.shape[1:] != self._source.shape:
             raise RetargetError(f"source frames have shape {source.shape}, expected (F, {len(self._source)}, 3)")
-        normalised = ((source.astype(np.float32) - self._source) @ self._read) * self._per_length
-        moved = turn(apply_matrix(self._matrix, normalised), self._turns)
+        moved = self.plain(source.astype(np.float32))
+        if self._steering is not None:
+            moved = self._steering.steer(moved, source.astype(np.float32))
         moved = self._parts.add_to(moved, source)
         moved += self._target
         return moved
+
+    def plain(self, source: FloatArray) -> FloatArray:
+        """Displacements (F, Vt, 3) float32 of frames (F, Vs, 3) float32, without examples, of the skin alone."""
+        normalised = ((source - self._source) @ self._read) * self._per_length
+        return turn(apply_matrix(self._matrix, normalised), self._turns)
+
+    def learn(self, base: SteeringBase, strength: float) -> None:
+        """Learn from the problem's examples; the parts go on following the skin.
+
+        Raises
+        ------
+        RetargetError : as `SteeringBase.examples`.
+        """
+        examples = base.examples(self._problem)
+        follows = self._parts.moves[:, None]
+        of_skin = [example._replace(target=np.where(follows, 0.0, example.target)) for example in examples]
+        self._steering = learn(base, of_skin, self.plain, strength)
+        if self._steering is not None:
+            self._taught = base.moved(of_skin)
 
     def detail(self, source: FloatArray) -> tuple[FloatArray, IntArray]:
         """The target's frames and its faces: this method has no finer mesh."""
@@ -94,9 +117,7 @@ class MotionCloningRetargeter:
     def report(self) -> Mapping[str, Any]:
         """Figures of the fit, as plain data."""
         source, target = self._problem.source, self._problem.target
-        still, warnings = still_components(target.mesh, self._moves | self._parts.moves)
-        if source.examples:
-            warnings.append("examples are not used by this method")
+        still, warnings = still_components(target.mesh, self._moves | self._parts.moves | self._taught)
         return {
             "source": {"vertices": len(source.mesh.vertices), "faces": len(source.mesh.faces)},
             "target": {"vertices": len(target.mesh.vertices), "faces": len(target.mesh.faces)},
@@ -104,7 +125,7 @@ class MotionCloningRetargeter:
             "fapu": {"source": self._fapus[0].taken, "target": self._fapus[1].taken},
             "parts": self._parts.rows,
             "still_components": still,
-            "examples": [],
+            "examples": [] if self._steering is None else self._steering.figures,
             "warnings": warnings,
         }
 
@@ -114,7 +135,8 @@ def fit(problem: Problem, settings: MotionCloningSettings, progress: Progress = 
 
     Raises
     ------
-    RetargetError : if the faces have too few points in common, or points without MPEG-4 names.
+    RetargetError : if the faces have too few points in common, or points without MPEG-4 names, or the examples do not
+        fit the faces.
 
     References
     ----------
@@ -147,6 +169,7 @@ def fit(problem: Problem, settings: MotionCloningSettings, progress: Progress = 
         turns = _local_turns(problem, matrix, axes[1].T @ axes[0], marks[1], fapus[1].es) @ turns
     parts = carried_parts(problem.source, problem.target, np.zeros(len(target.vertices), bool))
     retargeter = MotionCloningRetargeter(problem, matrix, axes[0], lengths[0], turns, fapus, parts)
+    retargeter.learn(SteeringBase(source, target, *points, fapus[0].es, fapus[1].es), settings.example_strength)
     progress(1.0, "fitted")
     return retargeter
 

@@ -88,6 +88,7 @@ class MotionCloningSettings:
         "default: places found on the surfaces, continuous units; paper: the published cylinder and regions",
         choices=("default", "paper"),
     )
+    example_strength: float = _setting(1.0, "How far the examples steer the result", low=0.0, high=1.0)
 
 
 Settings = HierarchicalSettings | FeaturePointSettings | MotionCloningSettings
