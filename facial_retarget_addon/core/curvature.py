@@ -140,7 +140,7 @@ def _least_squares(here: IntArray, weights: FloatArray, bend: FloatArray, flat: 
 
 def _sums(rows: IntArray, values: FloatArray, count: int) -> FloatArray:
     flat = values.reshape(len(values), -1)
-    summed = np.stack([np.bincount(rows, column, count) for column in flat.T], axis=1)
+    summed: FloatArray = np.stack([np.bincount(rows, column, count) for column in flat.T], axis=1)
     return summed.reshape(count, *values.shape[1:])
 
 

@@ -59,7 +59,7 @@ def test_a_round_ball_is_equally_curved_and_convex(estimator: str) -> None:
         places /= np.linalg.norm(places, axis=1, keepdims=True)
     found = principal_frames(TriMesh(3 * places, faces), estimator)
     np.testing.assert_allclose(found.curvatures.mean(axis=1), -1 / 3, atol=0.03)
-    assert np.median(found.anisotropy) < 0.1
+    assert np.median(found.anisotropy) < (0.05 if estimator == "least_squares" else 0.3)
 
 
 def test_an_ellipsoids_ends_have_their_known_curvatures() -> None:
