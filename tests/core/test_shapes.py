@@ -17,6 +17,7 @@ from facial_retarget_addon.core.shapes.clone import clone_shapes
 from facial_retarget_addon.core.shapes.combinations import combined, complete, find_correctives, taken_apart
 from facial_retarget_addon.core.shapes.counterparts import Features, feature_of, missing
 from facial_retarget_addon.core.shapes.names import arkit_name, arkit_whole
+from facial_retarget_addon.core.shapes.resolve import resolve_shapes
 from facial_retarget_addon.core.shapes.shape_set import ShapeSet
 from facial_retarget_addon.core.shapes.sides import (
     BLENDER_SIDES,
@@ -299,3 +300,57 @@ def test_shapes_of_another_head_are_refused(problem: Problem) -> None:
     empty = ShapeSet((), np.empty((0, len(problem.source.mesh.vertices), 3)))
     with pytest.raises(RetargetError, match="no shapes arrived"):
         clone_shapes("motion_cloning", problem, MotionCloningSettings(), empty)
+
+
+# ---- learning from the artist -------------------------------------------------------------------
+
+
+def stronger(shapes: ShapeSet, factor: float) -> ShapeSet:
+    return ShapeSet(shapes.names, factor * shapes.displacements)
+
+
+def test_corrected_shapes_come_back_as_they_are_and_teach_the_others(problem: Problem, arkit: ShapeSet) -> None:
+    names = ["mouthSmileLeft", "mouthSmileRight", "mouthDimpleLeft", "jawOpen", "mouthClose", "browInnerUp"]
+    shapes = arkit.subset(names)
+    correctives = find_correctives(names)
+    settings = MotionCloningSettings()
+    plain = clone_shapes("motion_cloning", problem, settings, shapes, correctives)
+    corrected = stronger(plain.shapes.subset(["mouthSmileLeft", "mouthClose"]), 1.4)
+    again = resolve_shapes("motion_cloning", problem, settings, shapes, corrected, correctives)
+    assert again.shapes.names == shapes.names
+    for name in corrected.names:
+        np.testing.assert_array_equal(again.shapes[name], corrected[name])
+    # What is like the corrected smile grows as it did; what has nothing to do with it stays nearly as it was.
+    growth = {name: again.shapes.largest()[k] / plain.shapes.largest()[k] for k, name in enumerate(names)}
+    assert growth["mouthDimpleLeft"] > 1.15
+    assert abs(growth["browInnerUp"] - 1) < 0.1
+    assert [row["name"] for row in again.rows if row.get("corrected")] == list(corrected.names)
+    figures = {figure["name"]: figure for figure in again.report["examples"]}
+    assert set(figures) == set(corrected.names)
+    assert all({"fit", "leave_one_out"} <= figure.keys() for figure in figures.values())
+
+
+def test_nothing_corrected_changes_nothing(problem: Problem, arkit: ShapeSet) -> None:
+    shapes = arkit.subset(["mouthSmileLeft", "browInnerUp"])
+    plain = clone_shapes("motion_cloning", problem, MotionCloningSettings(), shapes)
+    again = resolve_shapes("motion_cloning", problem, MotionCloningSettings(), shapes, plain.shapes.subset([]))
+    np.testing.assert_array_equal(again.shapes.displacements, plain.shapes.displacements)
+
+
+def test_corrections_that_fit_nothing_are_refused(problem: Problem, arkit: ShapeSet) -> None:
+    shapes, settings = arkit.subset(["jawOpen"]), MotionCloningSettings()
+    count = len(problem.target.mesh.vertices)
+    with pytest.raises(RetargetError, match="corrected shapes smile are not among the source's jawOpen"):
+        resolve_shapes("motion_cloning", problem, settings, shapes, some_shapes("smile", vertices=count))
+    with pytest.raises(RetargetError, match=f"have 7 vertices, expected {count} as the target"):
+        resolve_shapes("motion_cloning", problem, settings, shapes, some_shapes("jawOpen"))
+
+
+def test_a_correction_that_shows_at_no_point_teaches_nothing(problem: Problem, arkit: ShapeSet) -> None:
+    still = ShapeSet(("wiggle",), np.zeros((1, *arkit.displacements.shape[1:])))
+    shapes = arkit.subset(["jawOpen"]).joined(still)
+    corrected = some_shapes("wiggle", vertices=len(problem.target.mesh.vertices))
+    again = resolve_shapes("motion_cloning", problem, MotionCloningSettings(), shapes, corrected)
+    np.testing.assert_array_equal(again.shapes["wiggle"], corrected["wiggle"])
+    assert again.report["examples"] == []
+    assert any("teach nothing: wiggle" in text for text in again.report["warnings"])
