@@ -15,12 +15,14 @@ from .face import DemoFace, build_face
 from .landmarks import POINTS
 from .layouts import ringed_layout, scattered_layout
 from .muscles import contractions
+from .shape_sets import face_shapes
 
 __all__ = [
     "POINTS",
     "DemoFace",
     "actor",
     "contractions",
+    "face_shapes",
     "performance",
     "performance_table",
     "targets",

@@ -14,8 +14,10 @@ from .sculpt import Sculpture
 from .smooth import bell, step
 from .wrinkles import tension, wrinkle_fields
 
-_JAW_ANGLE = np.radians(21.0)
+_JAW_ANGLE = np.radians(12.2)
 """How far the jaw turns at full contraction."""
+_JAW_SHIFTS = {"jaw_forward": ((0.0, -0.015, 0.125), 0.25), "jaw_aside": ((0.17, 0.0, 0.0), 0.3)}
+"""How far the jaw shifts, in eye separations, and which share of that moves one lip against the other."""
 
 
 class Acting:
@@ -41,9 +43,13 @@ class Acting:
         folds = sculpture.scale * wrinkle_fields(places)[..., None] * sculpture.normals(places)
         self._pulls, self._folds = pulls.astype(np.float32), folds.astype(np.float32)
         self._lids = [Lids(sculpture, lens, side, places) for lens, side in ((LEFT_EYE, "l"), (RIGHT_EYE, "r"))]
-        weight = _jaw_weight(places)
-        self._hanging = np.flatnonzero(weight)
+        weight, sealed = _jaw_weight(places), _jaw_weight(places, sealed=True)
+        for name, (shift, share) in _JAW_SHIFTS.items():
+            carried = (sealed + share * (weight - sealed)) * (1.0 - step(np.abs(places[:, 0]), 0.60, 1.35))
+            self._pulls[column(name)] = sculpture.scale * carried[:, None] * np.array(shift)
+        self._hanging = np.flatnonzero(np.maximum(weight, sealed))
         self._jaw = weight[self._hanging].astype(np.float32)
+        self._sealed = sealed[self._hanging].astype(np.float32)
         self._from_joint = (self.neutral[self._hanging] - sculpture.jaw_joint).astype(np.float32)
 
     def displacements(self, table: FloatArray, wrinkles: float = 1.0) -> FloatArray:
@@ -64,24 +70,28 @@ class Acting:
 
     def _turn_jaw(self, table: FloatArray, moved: FloatArray) -> None:
         """Turn what hangs on the jaw about the axis through its joints; displacements, in place."""
-        angle = (_JAW_ANGLE * table[:, column("jaw"), None]).astype(np.float32) * self._jaw
+        jaw, seal = (table[:, column(name), None].astype(np.float32) for name in ("jaw", "seal"))
+        angle = _JAW_ANGLE * jaw * (self._jaw + seal * (self._sealed - self._jaw))
         sine, versine = np.sin(angle), 2 * np.sin(0.5 * angle) ** 2
         y, z = (moved[:, self._hanging, k] + self._from_joint[:, k] for k in (1, 2))
         moved[:, self._hanging, 1] -= versine * y + sine * z
         moved[:, self._hanging, 2] += sine * y - versine * z
 
 
-def _jaw_weight(places: FloatArray) -> FloatArray:
-    """How much of the jaw's turn a place takes part in, (N,) from 0 to 1."""
+def _jaw_weight(places: FloatArray, sealed: bool = False) -> FloatArray:
+    """How much of the jaw's turn a place takes part in, (N,) from 0 to 1; with sealed lips, both by the same."""
     x, y = places.T
     across = np.minimum(np.abs(x - MOUTH.x) / MOUTH.half_width, 1.0)
     beyond = np.maximum(np.abs(x - MOUTH.x) - MOUTH.half_width, 0.0)
     # The lips open to an oval: near the corners the lower one stays behind and the upper one follows.
     corner = 0.42
     lip = np.where(y > MOUTH.y, corner * across**4, 1.0 - (1.0 - corner) * across**3)
-    near = bell(beyond, 0.30) * bell(np.maximum(MOUTH.distance(places), 0.0), 0.17)
+    if sealed:
+        lip = corner + 0.12 * (1.0 - across**2) ** 2
+    reach = 0.28 if sealed else 0.17
+    near = bell(beyond, 0.30) * bell(np.maximum(MOUTH.distance(places), 0.0), reach)
     cheek = step(y, -0.60, -1.50)
     lower = 0.5 * (1.0 - MOUTH.side(places))
     far = cheek + 0.8 * bell(beyond, 0.45) * (lower - cheek)
     weight = far + near * (lip - far)
-    return np.asarray(weight * (1.0 - step(y, -1.82, -2.36)) * (1.0 - step(np.abs(x), 1.15, 1.60)))
+    return np.asarray(weight * (1.0 - step(y, -1.70, -2.55)) * (1.0 - step(np.abs(x), 0.85, 1.65)))

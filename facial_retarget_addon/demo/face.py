@@ -13,6 +13,7 @@ from ..core.points import FeaturePoints
 from ..core.problem import Face
 from .acting import Acting
 from .expressions import EXPRESSIONS
+from .gaze import Gaze
 from .landmarks import POINTS
 from .layouts import Layout
 from .muscles import contractions
@@ -25,7 +26,7 @@ Warp = Callable[[FloatArray], FloatArray]
 
 @dataclass(frozen=True, eq=False)
 class DemoFace:
-    """A built-in face: skin first, then eyeballs, teeth and the mouth's back wall, which stay put.
+    """A built-in face: skin first, then eyeballs, which turn with the gaze; teeth and the mouth's back wall stay put.
 
     Attributes
     ----------
@@ -37,6 +38,7 @@ class DemoFace:
     face : neutral mesh, feature points, the seven examples.
     places : (N, 2) chart places of the skin's vertices, which are the first N: equal places are the same skin.
     acting : moves the skin, before the warp.
+    gazes : turn the eyeballs, before the warp.
     warp : what the finished positions go through.
     """
 
@@ -48,6 +50,7 @@ class DemoFace:
     face: Face
     places: FloatArray
     acting: Acting
+    gazes: tuple[Gaze, ...]
     warp: Warp
 
     def frames(self, table: FloatArray, wrinkles: float = 1.0) -> FloatArray:
@@ -59,6 +62,9 @@ class DemoFace:
         moved += self.acting.neutral
         frames = np.repeat(self.face.mesh.vertices[None].astype(np.float32), len(table), axis=0)
         frames[:, : len(self.places)] = self.warp(moved)
+        for gaze in self.gazes:
+            acting = gaze.turning(table)
+            frames[np.ix_(acting, gaze.rows)] = self.warp(gaze.positions(table[acting]))
         return frames
 
 
@@ -95,8 +101,13 @@ def build_face(
         0.12 + 0.86 * (layout.places - low) / (high - low),
         skin_colours(layout.places, palette),
     )
-    pieces = [skin, *parts(sculpture)]
+    behind = parts(sculpture)
+    pieces = [skin, *behind]
     first = np.cumsum([0, *(len(piece.vertices) for piece in pieces)])
+    gazes = tuple(
+        Gaze(sculpture, side, ball, np.arange(at, at + len(ball.vertices)))
+        for side, ball, at in zip(("l", "r"), behind[:2], first[1:3], strict=True)
+    )
     counts = np.concatenate([np.full(len(piece.polygons), piece.polygons.shape[1]) for piece in pieces])
     corners = np.concatenate([(piece.polygons + at).ravel() for piece, at in zip(pieces, first[:-1], strict=True)])
     # In float32, so that the frames, which are float32, start from exactly this neutral.
@@ -113,6 +124,7 @@ def build_face(
         face=Face(mesh, points),
         places=layout.places,
         acting=acting,
+        gazes=gazes,
         warp=warp,
     )
     examples = face.frames(contractions(*EXPRESSIONS.values())).astype(np.float64)

@@ -12,6 +12,8 @@ from .smooth import step
 
 _MEET = 0.14
 """Where shut lids meet, from the lower rim (0) to the upper (1)."""
+_ASIDE = 0.07
+"""How far, in radians, the middle of a lid goes along when the eye looks aside."""
 
 
 class Lids:
@@ -26,7 +28,9 @@ class Lids:
     """
 
     def __init__(self, sculpture: Sculpture, lens: Lens, side: str, places: FloatArray) -> None:
-        self._columns = [column(f"{name}_{side}") for name in ("blink", "widen", "squint")]
+        self._columns = [
+            column(f"{name}_{side}") for name in ("blink", "widen", "squint", "tighten", "look_up", "look_aside")
+        ]
         centre = sculpture.eye_centre(SIDES[side])
         u = (places[:, 0] - lens.x) / lens.half_width
         above = places[:, 1] > lens.y
@@ -44,16 +48,28 @@ class Lids:
         self._turn = (share * opening).astype(np.float32)
         self._position = (sculpture.surface(places[rows]) - centre).astype(np.float32)
         self._rest = np.where(above, share, 0.0)[:, None] * shut
+        self._aside = (_ASIDE * share * (1.0 - u[rows] ** 2) ** 2).astype(np.float32)
 
     def add(self, table: FloatArray, displacement: FloatArray) -> None:
         """Add what the lids do under contractions (F, A) to displacements (F, N, 3)."""
-        blink, widen, squint = (table[:, k, None] for k in self._columns)
-        down = (_MEET - 1.0) * blink + 0.30 * widen * (1.0 - blink)
-        up = _MEET * blink + 0.26 * squint * (1.0 - blink) - 0.08 * widen * (1.0 - blink)
-        angle = np.where(self._above, down, up).astype(np.float32) * self._turn
-        displacement[:, self._rows] += _turned(self._position, angle) - self._position
+        blink, widen, squint, tighten, look, aside = (table[:, k, None] for k in self._columns)
+        up, down = np.maximum(look, 0.0), np.maximum(-look, 0.0)
+        # Shut lids meet in one place, whatever else acts on them.
+        upper = (_MEET - 1.0) * blink + (0.30 * widen - 0.16 * tighten + 0.24 * up - 0.46 * down) * (1.0 - blink)
+        lower = _MEET * blink + (0.26 * squint + 0.36 * tighten - 0.08 * widen + 0.10 * up - 0.16 * down) * (
+            1.0 - blink
+        )
+        angle = np.where(self._above, upper, lower).astype(np.float32) * self._turn
+        turned = _turned(self._position, angle)
         # What the turn leaves open, because the two rims are not equally far from the axis.
-        displacement[:, self._rows] += blink[..., None] * self._rest
+        turned += blink[..., None] * self._rest
+        # The cornea pushes the lids aside.
+        sideways = aside.astype(np.float32) * self._aside
+        sine, versine = np.sin(sideways), 2 * np.sin(0.5 * sideways) ** 2
+        x, z = turned[..., 0].copy(), turned[..., 2].copy()
+        turned[..., 0] += sine * z - versine * x
+        turned[..., 2] -= sine * x + versine * z
+        displacement[:, self._rows] += turned - self._position
 
 
 def _elevation(from_centre: FloatArray) -> FloatArray:

@@ -1,4 +1,4 @@
-"""What lies behind the skin of a built-in face and stays put: eyeballs, teeth, the mouth's dark."""
+"""What lies behind the skin of a built-in face: eyeballs, teeth, the mouth's dark."""
 
 from __future__ import annotations
 
@@ -47,10 +47,9 @@ def _eyeball(sculpture: Sculpture, side: float) -> Part:
     ring = np.abs(square).max(axis=1)
     round_ = square / np.maximum(np.hypot(*square.T), 1e-9)[:, None]
     angle = np.radians(115.0) * ring**1.4
-    # Beyond the lids the ball goes on as a cone, so that no view past a lid's corner misses it.
-    on_ball, skirt = np.minimum(angle, 1.15), np.maximum(angle - 1.15, 0.0)
-    across = np.sin(on_ball) + skirt * np.cos(on_ball)
-    forward = np.cos(on_ball) - skirt * np.sin(on_ball)
+    # Far behind the lids the ball grows, so that no view past a lid's corner misses it, and no gaze shows it.
+    radius = 1.0 + 0.25 * np.maximum(angle - 1.5, 0.0)
+    across, forward = radius * np.sin(angle), radius * np.cos(angle)
     unit = np.concatenate([across[:, None] * round_, forward[:, None]], axis=1)
     colours = np.where((angle < 0.385)[:, None], _IRIS, _WHITE)
     colours[angle < 0.165] = _PUPIL

@@ -83,8 +83,8 @@ class Sculpture:
 
     @property
     def jaw_joint(self) -> FloatArray:
-        """(3,) a point on the axis through the jaw's joints, which runs along x."""
-        return self.scale * np.array([0.0, -0.25, -0.45])
+        """(3,) on the axis along x that the jaw turns about: below its joints, which slide forward as it opens."""
+        return self.scale * np.array([0.0, -0.70, -1.05])
 
     def eye_centre(self, side: float) -> FloatArray:
         """(3,) middle of an eyeball: side 1 for the left, -1 for the right."""

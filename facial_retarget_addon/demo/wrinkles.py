@@ -13,10 +13,10 @@ _RAISED_BY: tuple[tuple[str, ...], ...] = (
     ("frontalis_inner_r", "frontalis_outer_r"),
     ("squint_l", "zygomatic_l"),
     ("squint_r", "zygomatic_r"),
-    ("zygomatic_l", "levator_l"),
-    ("zygomatic_r", "levator_r"),
+    ("zygomatic_l", "levator_l", "nasalis_l"),
+    ("zygomatic_r", "levator_r", "nasalis_r"),
     ("corrugator_l", "corrugator_r"),
-    ("levator_l", "levator_r"),
+    ("levator_l", "levator_r", "nasalis_l", "nasalis_r"),
 )
 """The contractions that raise each field of `wrinkle_fields`."""
 
