@@ -30,6 +30,17 @@ _UNREADABLE = (
 """What NumPy and zipfile raise on bytes that are no NPZ file."""
 
 
+def array_names(path: Path) -> list[str]:
+    """Names of the arrays that a file has, in its order; RetargetError as in `read_arrays`."""
+    try:
+        with zipfile.ZipFile(path) as archive:
+            return [name.removesuffix(".npy") for name in archive.namelist() if name.endswith(".npy")]
+    except OSError as error:
+        raise RetargetError(f"{path} cannot be read: {error.strerror or error}") from error
+    except _UNREADABLE as error:
+        raise RetargetError(f"{path} is no NPZ file of plain numbers: {error}") from error
+
+
 def read_arrays(path: Path, *names: str) -> dict[str, Array]:
     """Those of the named arrays that a file has; arrays that are not compressed are mapped, read-only.
 

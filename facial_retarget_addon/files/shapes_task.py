@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,18 +10,15 @@ from typing import Any
 import numpy as np
 
 from ..core.acting.expression_sets import expression_shapes, still_shapes
-from ..core.arrays import FloatArray, Progress, no_progress, progress_part
+from ..core.arrays import Progress, no_progress, progress_part
 from ..core.errors import RetargetError
 from ..core.mpeg4.sets import SETS
-from .mesh_file import MeshFile
+from ..core.shapes.shape_set import ShapeSet
 from .mpeg4_face import FapFaceFiles, fit_face_files
-from .npz import write_arrays
-from .obj import write_obj
 from .pages.fap_page import shapes_page
 from .pages.report import report_json
-from .whole import Aside, overwritten, place_faults, written_whole
-
-_FOLDER_OF = ".obj"
+from .shape_files import add_shapes, check_shapes_place
+from .whole import overwritten, place_faults, written_whole
 
 
 @dataclass(frozen=True)
@@ -33,7 +29,8 @@ class ShapesTask:
     ----------
     face : the face.
     sets : names out of `SETS`.
-    out : a folder for one `.obj` for each shape, named after it; or `.npz` with an array (V, 3) for each.
+    out : a folder for one `.obj` for each shape, named after it; `.npz` with an array (V, 3) for each; or a facial
+        animation table (`.json`).
     report, page : where figures (JSON) and pictures (HTML) go.
     """
 
@@ -73,7 +70,7 @@ def run_shapes_task(task: ShapesTask, progress: Progress = no_progress) -> dict[
     moved = {name: float(np.abs(shape - mesh_file.mesh.vertices).max()) / size for name, shape in shapes.items()}
     report = {"sets": list(task.sets), "shapes": moved, "face": figures, "seconds": seconds, "warnings": warnings}
     with written_whole() as aside:
-        _add_shapes(aside, shapes, task.out, mesh_file)
+        add_shapes(aside, ShapeSet.of_positions(mesh_file.mesh.vertices, shapes), task.out, mesh_file)
         if task.page is not None:
             page = shapes_page(report, face, shapes, progress_part(progress, 0.3, 1.0))
             aside.place(task.page).write_bytes(page)
@@ -84,20 +81,6 @@ def run_shapes_task(task: ShapesTask, progress: Progress = no_progress) -> dict[
     return report
 
 
-def _add_shapes(aside: Aside, shapes: Mapping[str, FloatArray], out: Path, neutral: MeshFile) -> None:
-    """Write the shapes among outputs that appear together."""
-    place = aside.place(out, replaces=_FOLDER_OF)
-    if out.suffix.lower() == ".npz":
-        with open(place, "xb") as file:
-            write_arrays(file, shapes)
-        return
-    place.mkdir()
-    for name, positions in shapes.items():
-        mesh = neutral.mesh.with_vertices(positions)
-        with open(place / f"{name}.obj", "xb") as file:
-            write_obj(file, MeshFile(mesh, neutral.counts, neutral.corners, neutral.uvs))
-
-
 def _check(task: ShapesTask) -> None:
     """RetargetError if a set is unknown or the outputs cannot be written; names all faults."""
     unknown = [name for name in task.sets if name not in SETS]
@@ -106,10 +89,10 @@ def _check(task: ShapesTask) -> None:
         wrong.append(f"no set of shapes is named, expected some of {', '.join(SETS)}")
     outputs = {"out": task.out, "report": task.report, "page": task.page}
     wrong += overwritten(task.face.inputs(), {name: path for name, path in outputs.items() if path is not None})
-    suffix = task.out.suffix.lower()
-    if suffix not in ("", ".npz") and not task.out.is_dir():
-        wrong.append(f"shapes {task.out} would be a {suffix}, expected a folder of .obj files or an .npz")
-    wrong += place_faults([task.out], "" if suffix == ".npz" else _FOLDER_OF)
+    try:
+        check_shapes_place(task.out)
+    except RetargetError as error:
+        wrong.append(str(error))
     wrong += place_faults([task.report, task.page])
     if wrong:
         raise RetargetError("; ".join(wrong))

@@ -12,11 +12,14 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from facial_retarget_addon.core.errors import RetargetError
+from facial_retarget_addon.core.shapes.shape_set import ShapeSet
 from facial_retarget_addon.files.base_mesh import read_base_mesh, write_base_mesh
 from facial_retarget_addon.files.frames import read_frames, write_frames
 from facial_retarget_addon.files.job import read_job
 from facial_retarget_addon.files.meshes import read_mesh, write_mesh
 from facial_retarget_addon.files.points import read_points, write_points
+from facial_retarget_addon.files.shape_files import add_shapes, read_shapes
+from facial_retarget_addon.files.whole import written_whole
 
 from .conftest import dome, dome_points
 
@@ -80,6 +83,10 @@ def read_any_points(path: Path) -> None:
     assert np.isfinite(points.positions(MESH.mesh.vertices)).all()
 
 
+def read_any_shapes(path: Path) -> None:
+    assert np.isfinite(read_shapes(path, MESH.mesh).displacements).all()
+
+
 READERS: dict[str, Callable[[Path], object]] = {
     "mesh.obj": read_any_mesh,
     "mesh.ply": read_any_mesh,
@@ -91,6 +98,8 @@ READERS: dict[str, Callable[[Path], object]] = {
     "frames.mdd": read_any_frames,
     "points.json": read_any_points,
     "base.json": read_base_mesh,
+    "table.json": read_any_shapes,
+    "shapes.npz": read_any_shapes,
     "job.toml": read_job,
 }
 WORDS = st.sampled_from(
@@ -127,6 +136,10 @@ def sound(folder: Path, name: str) -> bytes:
             return packed.getvalue()
         case "points.json":
             write_points(dome_points(SIDE), path)
+        case "table.json" | "shapes.npz":
+            shapes = ShapeSet.of_positions(MESH.mesh.vertices, {"jawOpen": FRAMES[1], "smirk": FRAMES[0]})
+            with written_whole() as aside:
+                add_shapes(aside, shapes, path, MESH)
         case "base.json":
             write_base_mesh((("a", "b", "c"),), path)
         case _:
@@ -169,7 +182,7 @@ def test_a_sound_file_is_sound(tmp_path, name):
     READERS[name](tmp_path / name)
 
 
-@pytest.mark.parametrize("name", ["points.json", "base.json", "job.toml"])
+@pytest.mark.parametrize("name", ["points.json", "base.json", "table.json", "job.toml"])
 def test_a_document_that_nests_too_deep(tmp_path, name):
     survives(name, tmp_path / name, b"a = " * (name == "job.toml") + b"[" * 100_000)
     survives(name, tmp_path / name, b'{"a":' * 100_000)
