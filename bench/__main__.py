@@ -3,7 +3,18 @@
 import sys
 from importlib import import_module
 
-SECTIONS = ("fit", "piercing", "frames", "feature_points", "wrinkles", "real_faces", "cloning", "blender_write")
+SECTIONS = (
+    "fit",
+    "piercing",
+    "frames",
+    "feature_points",
+    "wrinkles",
+    "real_faces",
+    "cloning",
+    "cloning_grid",
+    "cloning_speed",
+    "blender_write",
+)
 
 
 def main(names: list[str]) -> int:

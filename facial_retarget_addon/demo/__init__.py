@@ -9,7 +9,21 @@ from __future__ import annotations
 import numpy as np
 
 from ..core.arrays import FloatArray
-from .cast import ACTOR, APE, APE_MANNER, BONE, FUR, HUMAN, SKULL, SKULL_MANNER, smooth_warp
+from .cast import (
+    ACTOR,
+    APE,
+    APE_MANNER,
+    BONE,
+    CHERUB,
+    CHILD,
+    CHILD_MANNER,
+    FUR,
+    HUMAN,
+    SKULL,
+    SKULL_MANNER,
+    childlike,
+    smooth_warp,
+)
 from .expressions import performance_table
 from .face import DemoFace, build_face
 from .landmarks import POINTS
@@ -21,6 +35,7 @@ __all__ = [
     "POINTS",
     "DemoFace",
     "actor",
+    "child",
     "contractions",
     "face_shapes",
     "performance",
@@ -58,6 +73,11 @@ def targets() -> list[DemoFace]:
         build_face("ape", APE, scatter, FUR, APE_MANNER),
         build_face("skull", SKULL, ringed_layout(118, 132, 9), BONE, SKULL_MANNER),
     ]
+
+
+def child() -> DemoFace:
+    """A light mesh of quads with a child's proportions: a third face to take motion from or to, with examples."""
+    return build_face("child", CHILD, ringed_layout(64, 72, 6), CHERUB, CHILD_MANNER, childlike)
 
 
 def warped_actor(rng: np.random.Generator, vertices: int = 40_000) -> DemoFace:

@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from ..core.arrays import FloatArray
+from .chart import MOUTH
 from .paint import Palette
 from .sculpt import Sculpture, Shape
 
@@ -69,6 +70,51 @@ SKULL = Sculpture(
 )
 BONE = Palette(skin=(0.74, 0.70, 0.60), lip=(0.60, 0.50, 0.42), brow=(0.66, 0.60, 0.50))
 SKULL_MANNER = {"zygomatic": 1.2, "risorius": 1.2, "jaw": 1.1, "frontalis_inner": 0.8, "corrugator": 1.1}
+
+CHILD = Sculpture(
+    Shape(
+        scale=1.0,
+        brow=0.25,
+        socket=0.65,
+        cheekbone=0.45,
+        hollow=-0.5,
+        temple=0.4,
+        nose=0.62,
+        nose_width=0.95,
+        muzzle=0.9,
+        lips=1.5,
+        chin=0.5,
+        profile=(
+            (1.50, 0.16, 0.02, 1.18),
+            (1.05, 0.16, 0.13, 1.16),
+            (0.55, 0.07, 0.13, 1.10),
+            (0.0, 0.0, 0.0, 1.04),
+            (-0.6, 0.10, 0.0, 1.06),
+            (-1.1, 0.24, -0.02, 1.06),
+            (-1.7, 0.44, -0.06, 0.96),
+            (-2.5, 0.50, -0.05, 0.80),
+        ),
+    )
+)
+CHERUB = Palette(skin=(0.80, 0.63, 0.52), lip=(0.66, 0.36, 0.32), brow=(0.42, 0.28, 0.16))
+CHILD_MANNER = {"jaw": 0.8, "zygomatic": 0.9, "frontalis_inner": 0.9, "corrugator": 0.8, "pucker": 0.9}
+
+
+def childlike(positions: FloatArray) -> FloatArray:
+    """A warp of space to a child's proportions on `CHILD`, that cannot fold: large eyes, a small mouth, 40 times the size.
+
+    Around each of three places everything is drawn apart or together, less and less with the distance.
+    """
+    drawn = np.array(positions, np.float64)
+    mouth = CHILD.surface(np.array([[MOUTH.x, MOUTH.y]]))[0]
+    for centre, growth, reach in (
+        (CHILD.eye_centre(1.0), 0.42, 0.50),
+        (CHILD.eye_centre(-1.0), 0.42, 0.50),
+        (mouth, -0.30, 0.60),
+    ):
+        away = positions - centre
+        drawn += growth * away * np.exp(-(away**2).sum(axis=-1, keepdims=True) / reach**2)
+    return 40.0 * drawn
 
 
 def smooth_warp(rng: np.random.Generator) -> Callable[[FloatArray], FloatArray]:

@@ -26,7 +26,7 @@ def actor():
 
 @pytest.fixture(scope="module")
 def faces(actor):
-    return [actor, *demo.targets()]
+    return [actor, *demo.targets(), demo.child()]
 
 
 @pytest.fixture(scope="module")
