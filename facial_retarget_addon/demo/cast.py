@@ -101,7 +101,7 @@ CHILD_MANNER = {"jaw": 0.8, "zygomatic": 0.9, "frontalis_inner": 0.9, "corrugato
 
 
 def childlike(positions: FloatArray) -> FloatArray:
-    """A warp of space to a child's proportions on `CHILD`, that cannot fold: large eyes, a small mouth, 40 times the size.
+    """A warp of `CHILD` to a child's proportions, that cannot fold: large eyes, a small mouth, 40 times the size.
 
     Around each of three places everything is drawn apart or together, less and less with the distance.
     """
