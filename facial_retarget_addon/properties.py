@@ -38,11 +38,46 @@ class FACIAL_RETARGET_PG_feature_point(PropertyGroup):
     weights: FloatVectorProperty(name="Weights", size=3, default=(1.0, 0.0, 0.0), precision=4)
 
 
+PART_ROLES = (
+    *("left eyeball", "right eyeball", "upper teeth", "lower teeth", "gums", "tongue"),
+    *("lashes", "brows", "moustache", "beard", "still"),
+)
+"""What an artist may call a part of a head: the names of `core.parts.kinds.NAMED_KINDS`, which loads NumPy."""
+
+
+class FACIAL_RETARGET_PG_part(PropertyGroup):
+    """An object that belongs to the head of a face: an eye, teeth, lashes."""
+
+    thing: PointerProperty(name="Object", type=Object, poll=_is_mesh)
+    role: EnumProperty(
+        name="Role",
+        items=[
+            ("AUTO", "By Place", "What it is shows by where it lies on the head"),
+            *((role, role.title(), f"Moves as {role} do" if role != "still" else "Never moves") for role in PART_ROLES),
+        ],
+    )
+
+
+class FACIAL_RETARGET_PG_cloned_key(PropertyGroup):
+    """A shape key that was cloned onto an object. `name` is inherited."""
+
+    origin: StringProperty(name="Origin", description="The source's shape key that it was cloned from")
+    corrected: BoolProperty(
+        name="Corrected", description="As you want it: Re-solve leaves it alone, and teaches the other keys by it"
+    )
+    shape: StringProperty(description="Fingerprint of the shape that was cloned, by which a change shows")
+    note: StringProperty(name="Figures", description="What the report says of it")
+
+
 class FACIAL_RETARGET_PG_face(PropertyGroup):
     """What an object knows as a face."""
 
     points: CollectionProperty(type=FACIAL_RETARGET_PG_feature_point)
     active_point: IntProperty(name="Active feature point")
+    parts: CollectionProperty(type=FACIAL_RETARGET_PG_part)
+    active_part: IntProperty(name="Active part")
+    cloned: CollectionProperty(type=FACIAL_RETARGET_PG_cloned_key)
+    active_cloned: IntProperty(name="Active cloned shape key")
     head: PointerProperty(name="Head", type=Object, description="The empty that shows how the head turns")
 
 
@@ -77,8 +112,66 @@ def _settings_group(method: str) -> type[PropertyGroup]:
     return type(name, (PropertyGroup,), body)
 
 
+ACTOR_SETS = [
+    ("arkit", "ARKit", "The 52 shapes that phones record"),
+    ("visemes", "Visemes", "The mouth in speech: MPEG-4's 14"),
+    ("expressions", "Expressions", "joy, sadness, anger, fear, disgust, surprise"),
+]
+
 SETTINGS_GROUPS = {method: _settings_group(method) for method in SETTINGS}
 """Method name -> the property group of its settings; on the scene's group it has the method's name."""
+
+
+class FACIAL_RETARGET_PG_cloning(PropertyGroup):
+    """How shape keys are cloned from head to head."""
+
+    donor: EnumProperty(
+        name="From",
+        items=[
+            ("SOURCE", "Source", "The shape keys of the source chosen under Faces, and of its parts"),
+            ("ACTOR", "Built-In Actor", "The shapes of the built-in actor; no source is needed, and nothing is added"),
+        ],
+    )
+    actor_sets: EnumProperty(name="Sets", items=ACTOR_SETS, options={"ENUM_FLAG"}, default={"arkit"})
+    targets: EnumProperty(
+        name="Onto",
+        items=[
+            ("TARGET", "Target", "The target chosen under Faces"),
+            ("SELECTED", "Selected Heads", "Every selected object with feature points, but for the source"),
+        ],
+    )
+    keep: StringProperty(
+        name="Keep", default="*", description="Which shape keys: patterns such as mouth* or jaw?pen, with commas between"
+    )
+    drop: StringProperty(name="But Not", description="Which of these to leave out, as patterns with commas between")
+    sides: EnumProperty(
+        name="Sides",
+        items=[
+            ("AS_THEY_ARE", "As They Are", "Shape keys come as the source has them"),
+            ("SPLIT", "Split", "Shape keys without a side in their name become a left and a right one"),
+            ("MERGE", "Merge", "Left and right halves of what ARKit has as a whole become one"),
+        ],
+    )
+    feather: FloatProperty(
+        name="Soft Border",
+        default=0.25,
+        min=0.0,
+        soft_max=1.0,
+        description="How far left and right overlap on either side of the middle, in distances between the eyes",
+    )
+    existing: EnumProperty(
+        name="Existing Keys",
+        items=[
+            ("KEEP", "Keep", "Shape keys of these names that move something stay as they are"),
+            ("REPLACE", "Replace", "Shape keys of these names are made anew"),
+            ("SUFFIX", "Number", "Cloned shape keys whose name is taken get a number behind it"),
+        ],
+    )
+    copy_drivers: BoolProperty(name="Drivers", default=True, description="Copy the drivers of the shape keys")
+    copy_animation: BoolProperty(name="Animation", default=True, description="Copy the animation of the shape keys")
+    method: EnumProperty(
+        name="Method", items=[(name, _label(name), text) for name, text in METHODS.items()], default="motion_cloning"
+    )
 
 
 class FACIAL_RETARGET_PG_task(PropertyGroup):
@@ -105,6 +198,7 @@ class FACIAL_RETARGET_PG_task(PropertyGroup):
     )
     examples: CollectionProperty(type=FACIAL_RETARGET_PG_example)
     active_example: IntProperty(name="Active example")
+    cloning: PointerProperty(type=FACIAL_RETARGET_PG_cloning)
     method: EnumProperty(name="Method", items=[(name, _label(name), text) for name, text in METHODS.items()])
     report: StringProperty(name="Report", subtype="FILE_PATH", description="Where to write the figures (.json)")
     page: StringProperty(name="Page", subtype="FILE_PATH", description="Where to write the page to look at (.html)")
@@ -118,9 +212,12 @@ for _method, _group in SETTINGS_GROUPS.items():
 
 CLASSES = (
     FACIAL_RETARGET_PG_feature_point,
+    FACIAL_RETARGET_PG_part,
+    FACIAL_RETARGET_PG_cloned_key,
     FACIAL_RETARGET_PG_face,
     FACIAL_RETARGET_PG_example,
     *SETTINGS_GROUPS.values(),
+    FACIAL_RETARGET_PG_cloning,
     FACIAL_RETARGET_PG_task,
 )
 

@@ -6,7 +6,7 @@ from collections.abc import Collection
 
 import bpy
 import numpy as np
-from bpy.types import ID, ActionChannelbag, FCurve
+from bpy.types import ID, Action, ActionChannelbag, ActionSlot, FCurve
 
 from ..core.arrays import FloatArray
 
@@ -24,9 +24,20 @@ def ensure_curves(animated: ID, name: str) -> ActionChannelbag:
     action = animation.action
     if animation.action_slot is None:
         animation.action_slot = action.slots.new(id_type=animated.id_type, name=animated.name)
+    return ensure_bag(action, animation.action_slot)
+
+
+def ensure_bag(action: Action, slot: ActionSlot) -> ActionChannelbag:
+    """Where an action's curves of a slot lie, made if they have no place yet."""
     layer = action.layers[0] if action.layers else action.layers.new("Layer")
     strip = layer.strips[0] if layer.strips else layer.strips.new(type="KEYFRAME")
-    return strip.channelbag(animation.action_slot, ensure=True)
+    return strip.channelbag(slot, ensure=True)
+
+
+def find_bag(action: Action, slot: ActionSlot) -> ActionChannelbag | None:
+    """Where an action's curves of a slot lie, if it has any."""
+    strips = [strip for layer in action.layers for strip in layer.strips]
+    return strips[0].channelbag(slot) if strips else None
 
 
 def find_curves(animated: ID) -> ActionChannelbag | None:
@@ -34,8 +45,7 @@ def find_curves(animated: ID) -> ActionChannelbag | None:
     animation = animated.animation_data
     if animation is None or animation.action is None or animation.action_slot is None:
         return None
-    strips = [strip for layer in animation.action.layers for strip in layer.strips]
-    return strips[0].channelbag(animation.action_slot) if strips else None
+    return find_bag(animation.action, animation.action_slot)
 
 
 def remove_curves(bag: ActionChannelbag, paths: Collection[str]) -> None:

@@ -81,16 +81,26 @@ def read_face(thing: Object, positions: FloatArray | None = None) -> MeshFile:
     ------
     RetargetError : if it is no surface, or a vertex is NaN or infinite.
     """
-    counts, corners = read_polygons(thing.data)
     if positions is None:
         positions = to_face_space(thing, read_positions(thing.data).astype(np.float64))
+    return read_surface(thing, positions, bool(np.linalg.det(stretch(thing)) < 0))
+
+
+def read_surface(thing: Object, positions: FloatArray, mirrored: bool) -> MeshFile:
+    """An object's polygons and UVs on positions (V, 3); where these are mirrored, the polygons are turned around.
+
+    Raises
+    ------
+    RetargetError : if it is no surface, or a position is NaN or infinite.
+    """
+    counts, corners = read_polygons(thing.data)
     what = f"object {thing.name!r}"
     if not len(counts):
         raise RetargetError(f"{what} has {len(positions)} vertices and no faces, expected a surface")
     if not np.isfinite(positions).all():
         TriMesh(positions, np.zeros((1, 3), np.int64)).checked(what)
     uvs = _read_uvs(thing.data)
-    if np.linalg.det(stretch(thing)) < 0:
+    if mirrored:
         turned = _turned_corners(counts)
         corners, uvs = corners[turned], None if uvs is None else uvs[turned]
     return MeshFile(TriMesh.from_polygons(positions, counts, corners).checked(what), counts, corners, uvs)

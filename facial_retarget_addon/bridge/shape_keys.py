@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import numpy as np
-from bpy.types import Object, ShapeKey
+from bpy.types import FCurve, Object, ShapeKey
 from bpy.utils import escape_identifier
 
 from ..core.arrays import FloatArray
@@ -56,6 +56,16 @@ def remove_keys(thing: Object, names: Iterable[str]) -> None:
             thing.shape_key_remove(key)
 
 
+def key_path(name: str) -> str:
+    """Data path of a shape key."""
+    return f'key_blocks["{escape_identifier(name)}"]'
+
+
 def value_path(name: str) -> str:
     """Data path of a shape key's value."""
-    return f'key_blocks["{escape_identifier(name)}"].value'
+    return f"{key_path(name)}.value"
+
+
+def key_curves(curves: Iterable[FCurve], name: str) -> list[FCurve]:
+    """Those of some curves or drivers that move a property of a shape key."""
+    return [curve for curve in curves if curve.data_path.startswith(f"{key_path(name)}.")]

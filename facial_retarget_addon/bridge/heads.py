@@ -1,0 +1,150 @@
+"""A head of several objects: the face, and the parts that the artist lists, as one mesh for the core."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from bpy.types import Object
+
+from ..core.arrays import FloatArray, IntArray
+from ..core.errors import RetargetError
+from ..core.mesh import TriMesh
+from ..core.points import FeaturePoints
+from ..core.problem import Face
+from .key_sets import check_relative, key_names, masked_displacement
+from .meshes import read_positions, read_surface, stretch
+from .points import read_points
+from .shape_keys import find_key
+
+BY_PLACE = "AUTO"
+"""The role of a part that is told by where it lies."""
+FLAT = 1e-6
+"""A part is scaled to nothing if its least scale is below this share of its greatest."""
+
+
+@dataclass(frozen=True, eq=False)
+class Head:
+    """The objects of a head, and what they are together.
+
+    Attributes
+    ----------
+    things : the face object, then its parts.
+    starts : (n + 1,) the first vertex of each object among the head's, and how many there are.
+    linear : (n, 3, 3) displacements in an object's own coordinates to the head's, which are the face space of the face.
+    face : mesh, points and named parts for the core.
+    """
+
+    things: tuple[Object, ...]
+    starts: IntArray
+    linear: FloatArray
+    face: Face
+
+    @property
+    def name(self) -> str:
+        """The face object's name."""
+        return self.things[0].name
+
+    def slices(self) -> Iterator[tuple[Object, slice, FloatArray]]:
+        """Each object, its vertices among the head's, and the matrix of its displacements."""
+        for thing, first, last, matrix in zip(self.things, self.starts, self.starts[1:], self.linear, strict=False):
+            yield thing, slice(first, last), matrix
+
+    def key_names(self) -> list[str]:
+        """Names of all shape keys that the objects have, each once."""
+        return list(dict.fromkeys(name for thing in self.things for name in key_names(thing)))
+
+    def owner(self, name: str) -> Object:
+        """The first object that has a shape key of this name."""
+        return next(thing for thing in self.things if name in key_names(thing))
+
+    def displacements(self, names: Sequence[str], unmasked: Collection[str] = ()) -> FloatArray:
+        """(E, V, 3) float32 what shape keys do at 1, in the head's coordinates; an object without the key is still.
+
+        Parameters
+        ----------
+        unmasked : vertex groups that shall not mask; see `masked_displacement`.
+        """
+        moves = np.zeros((len(names), self.starts[-1], 3), np.float32)
+        for thing, own, matrix in self.slices():
+            for row, name in enumerate(names):
+                key = find_key(thing, name)
+                if key is not None:
+                    moves[row, own] = masked_displacement(thing, key, unmasked) @ matrix.T
+        return moves
+
+
+def read_head(face: Object) -> Head:
+    """A face object and its parts, each where it stands.
+
+    Raises
+    ------
+    RetargetError : if one is no surface, is scaled to nothing, has absolute shape keys, or is listed twice.
+    """
+    things = (face, *head_parts(face))
+    for thing in things:
+        check_relative(thing)
+    matrices = [_own_to_head(face, thing) for thing in things]
+    meshes = [_mesh(thing, matrix) for thing, matrix in zip(things, matrices, strict=True)]
+    starts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
+    polygons = np.cumsum([0, *(len(thing.data.polygons) for thing in things)])
+    mesh = TriMesh(
+        np.concatenate([mesh.vertices for mesh in meshes]),
+        np.concatenate([mesh.faces + first for mesh, first in zip(meshes, starts, strict=False)]),
+        np.concatenate([mesh.polygons + first for mesh, first in zip(meshes, polygons, strict=False)]),
+    )
+    named: dict[str, list[IntArray]] = {}
+    for part in face.facial_retarget.parts:
+        if part.role != BY_PLACE and part.thing in things:
+            row = things.index(part.thing)
+            named.setdefault(part.role, []).append(np.arange(starts[row], starts[row + 1]))
+    return Head(
+        things,
+        starts,
+        np.stack([matrix[:3, :3] for matrix in matrices]),
+        Face(mesh, _points(things, starts), named_parts={role: np.concatenate(held) for role, held in named.items()}),
+    )
+
+
+def head_parts(face: Object) -> list[Object]:
+    """The objects listed as parts of a face's head; those that the artist has deleted since are none.
+
+    Raises
+    ------
+    RetargetError : if the face itself is listed, or an object is listed twice.
+    """
+    things = [part.thing for part in face.facial_retarget.parts if part.thing is not None and part.thing.users_scene]
+    for thing in things:
+        if thing == face or things.count(thing) > 1:
+            what = "is listed as a part of itself" if thing == face else "is listed twice as a part"
+            raise RetargetError(f"object {thing.name!r} {what} of the head {face.name!r}, expected each object once")
+    return things
+
+
+def _own_to_head(face: Object, thing: Object) -> FloatArray:
+    """(4, 4) an object's own coordinates to face space of the head's face."""
+    to_face = np.eye(4)
+    to_face[:3, :3] = stretch(face)
+    if thing == face:
+        return to_face
+    world, own = (np.array(one.matrix_world, np.float64) for one in (face, thing))
+    scales = np.linalg.svd(own[:3, :3], compute_uv=False)
+    if scales[2] <= FLAT * scales[0]:
+        raise RetargetError(f"object {thing.name!r} is scaled to nothing along an axis, expected a scale that is not 0")
+    return to_face @ np.linalg.solve(world, own)
+
+
+def _mesh(thing: Object, matrix: FloatArray) -> TriMesh:
+    places = read_positions(thing.data).astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
+    return read_surface(thing, places, bool(np.linalg.det(matrix[:3, :3]) < 0)).mesh
+
+
+def _points(things: Sequence[Object], starts: IntArray) -> FeaturePoints:
+    """The points of all objects; a name that several have is the first one's."""
+    points = read_points(things[0])
+    for thing, first in zip(things[1:], starts[1:], strict=False):
+        own = read_points(thing)
+        new = own.subset([name for name in own.names if name not in points.names])
+        points = points.joined(FeaturePoints(new.names, new.vertices + first, new.weights))
+    return points
