@@ -141,7 +141,9 @@ class FACIAL_RETARGET_PG_cloning(PropertyGroup):
         ],
     )
     keep: StringProperty(
-        name="Keep", default="*", description="Which shape keys: patterns such as mouth* or jaw?pen, with commas between"
+        name="Keep",
+        default="*",
+        description="Which shape keys: patterns such as mouth* or *Left, with commas between",
     )
     drop: StringProperty(name="But Not", description="Which of these to leave out, as patterns with commas between")
     sides: EnumProperty(

@@ -3,9 +3,12 @@
 import bpy
 
 from . import (
+    add_actor,
     add_point,
+    clone_shapes,
     create_examples,
     fap_controls,
+    head_parts,
     jobs,
     list_examples,
     make_shapes,
@@ -21,11 +24,15 @@ CLASSES = (
     points_files.FACIAL_RETARGET_OT_save_points,
     add_point.FACIAL_RETARGET_OT_add_point,
     remove_point.FACIAL_RETARGET_OT_remove_point,
+    head_parts.FACIAL_RETARGET_OT_add_parts,
+    head_parts.FACIAL_RETARGET_OT_remove_part,
     show_base.FACIAL_RETARGET_OT_show_base,
     create_examples.FACIAL_RETARGET_OT_create_examples,
     list_examples.FACIAL_RETARGET_OT_add_example,
     list_examples.FACIAL_RETARGET_OT_remove_example,
     retarget.FACIAL_RETARGET_OT_retarget,
+    add_actor.FACIAL_RETARGET_OT_add_actor,
+    clone_shapes.FACIAL_RETARGET_OT_clone_shapes,
     jobs.FACIAL_RETARGET_OT_load_job,
     jobs.FACIAL_RETARGET_OT_save_job,
     make_shapes.FACIAL_RETARGET_OT_make_shapes,

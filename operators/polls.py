@@ -50,3 +50,22 @@ class OnTask:
             cls.poll_message_set("Choose a source and a target under Faces")
             return False
         return in_mode(cls, context)
+
+
+class OnCloning:
+    """For operators that clone shape keys."""
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        """What the shapes come from and where they go must be chosen, in Object Mode."""
+        task = context.scene.facial_retarget
+        if task.cloning.donor == "SOURCE" and task.source is None:
+            cls.poll_message_set("Choose a source under Faces, or clone from the built-in actor")
+            return False
+        if task.cloning.targets == "TARGET" and task.target is None:
+            cls.poll_message_set("Choose a target under Faces, or clone onto the selected heads")
+            return False
+        if task.cloning.targets == "SELECTED" and not context.selected_objects:
+            cls.poll_message_set("Select the heads that shall get the shapes")
+            return False
+        return in_mode(cls, context)

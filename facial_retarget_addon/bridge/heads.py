@@ -51,6 +51,11 @@ class Head:
         for thing, first, last, matrix in zip(self.things, self.starts, self.starts[1:], self.linear, strict=False):
             yield thing, slice(first, last), matrix
 
+    @property
+    def groups(self) -> set[str]:
+        """Names of the face object's vertex groups."""
+        return set(self.things[0].vertex_groups.keys())
+
     def key_names(self) -> list[str]:
         """Names of all shape keys that the objects have, each once."""
         return list(dict.fromkeys(name for thing in self.things for name in key_names(thing)))

@@ -35,7 +35,9 @@ class KeyTraits(NamedTuple):
 def check_editable(thing: Object) -> None:
     """RetargetError if an object's shape keys cannot be written: it is linked, or its keys are absolute."""
     if not thing.data.is_editable:
-        raise RetargetError(f"object {thing.name!r} is linked from another file, expected one whose mesh can be changed")
+        raise RetargetError(
+            f"object {thing.name!r} is linked from another file, expected one whose mesh can be changed"
+        )
     check_relative(thing)
 
 

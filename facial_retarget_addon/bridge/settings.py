@@ -13,9 +13,14 @@ from ..core.methods.settings import Settings, read_settings
 
 def read_task_settings(task: PropertyGroup) -> Settings:
     """The settings of the task's method."""
-    group = getattr(task, task.method)
+    return read_method_settings(task, task.method)
+
+
+def read_method_settings(task: PropertyGroup, method: str) -> Settings:
+    """The settings that the panel has for a method."""
+    group = getattr(task, method)
     values = {name: _plain(getattr(group, name)) for name in group.__annotations__}
-    return read_settings(task.method, values, "the panel")
+    return read_settings(method, values, "the panel")
 
 
 def write_task_settings(task: PropertyGroup, method: str, settings: Settings) -> None:

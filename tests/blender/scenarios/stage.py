@@ -65,6 +65,42 @@ def actor_face(vertices: int = 1_500) -> bpy.types.Object:
     return made
 
 
+def donor_pair(vertices: int = 4_500) -> tuple[bpy.types.Object, bpy.types.Object]:
+    """The built-in actor with a key for each of its expressions, and a warped one of another topology without keys."""
+    demo, rng = part("demo"), np.random.default_rng(1)
+    actor, warped = demo.actor(vertices), demo.warped_actor(rng, vertices)
+    pair = demo_object(actor, "source"), demo_object(warped, "target")
+    for name, positions in actor.face.examples.items():
+        if name != "neutral":
+            part("bridge.examples").write_example(pair[0], name, positions)
+    return pair
+
+
+def demo_object(face: object, name: str, pieces: bool = False) -> bpy.types.Object:
+    """A built-in face as an object with its feature points; with `pieces` eyes, teeth and wall are objects of its head."""
+    counts, corners, vertices = face.counts, face.corners, face.face.mesh.vertices
+    labels = face.face.mesh.components if pieces else np.zeros(len(vertices), int)
+    made = []
+    first = np.unique(labels, return_index=True)[1]
+    for label in labels[np.sort(first)].tolist():
+        own = labels == label
+        index = np.cumsum(own) - 1
+        polygons = own[corners[np.cumsum(counts) - counts]]
+        kept = np.repeat(polygons, counts)
+        made.append(part("bridge.meshes").new_object(name, vertices[own], counts[polygons], index[corners[kept]]))
+    part("bridge.points").write_points(made[0], face.face.points)
+    for thing in made[1:]:
+        made[0].facial_retarget.parts.add().thing = thing
+    return made[0]
+
+
+def key_shape(thing: bpy.types.Object, name: str) -> np.ndarray:
+    """(V, 3) positions that a shape key of an object holds."""
+    flat = np.empty(3 * len(thing.data.vertices), np.float32)
+    thing.data.shape_keys.key_blocks[name].points.foreach_get("co", flat)
+    return flat.reshape(-1, 3)
+
+
 def fitted(thing: bpy.types.Object) -> object:
     """An object as core's FapFace."""
     return part("bridge.background").finished(part("bridge.fap_faces").fit_steps(thing))
@@ -114,6 +150,9 @@ def snapshot() -> dict[str, object]:
         "meshes": sorted(mesh.name for mesh in bpy.data.meshes),
         "actions": sorted(action.name for action in bpy.data.actions),
         "keys": {key.name: [(block.name, block.value) for block in key.key_blocks] for key in bpy.data.shape_keys},
+        "drivers": {key.name: len(key.animation_data.drivers) for key in bpy.data.shape_keys if key.animation_data},
+        "texts": sorted(text.name for text in bpy.data.texts),
+        "cloned": {thing.name: [key.name for key in thing.facial_retarget.cloned] for thing in bpy.data.objects},
         "controls": {
             thing.name: sorted(n for n, _ in thing.items() if n.startswith("fap_")) for thing in bpy.data.objects
         },

@@ -1,0 +1,163 @@
+"""Cloned shapes of one head: named, written with all that belongs to them, and remembered."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from hashlib import sha256
+from typing import Any, NamedTuple
+
+import numpy as np
+from bpy.types import Object
+
+from ..core.arrays import BoolArray
+from ..core.errors import RetargetError
+from ..core.shapes.clone import STILL
+from ..core.shapes.shape_set import ShapeSet
+from .clone_report import figures_note, worst_first
+from .donors import Donor
+from .expression_keys import is_shaped
+from .heads import Head
+from .key_animation import copy_animation
+from .key_drivers import copy_drivers
+from .key_sets import KeyTraits, free_name, key_names, shortened, write_keys
+from .shape_keys import find_key, key_displacement
+
+Plan = Mapping[str, str]
+"""Name of a shape key to write -> the cloned shape that it gets."""
+
+
+class Copying(NamedTuple):
+    """What is copied with the keys."""
+
+    drivers: bool
+    animation: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Clones:
+    """Shapes for a head, before they are written.
+
+    origin : name of a shape -> the donor's shape that it comes from.
+    rows, report : figures, as `core.shapes.clone` gives them; rows are named by origin.
+    """
+
+    head: Head
+    shapes: ShapeSet
+    origin: Mapping[str, str]
+    rows: list[dict[str, Any]]
+    report: dict[str, Any]
+
+    @property
+    def warnings(self) -> list[str]:
+        """What the report says, and the parts that no shape moves."""
+        still = [
+            f"object {thing.name!r} of head {self.head.name!r} stays still: no cloned shape moves it"
+            for thing, own, _ in self.head.slices()
+            if thing != self.head.things[0] and not self._moves(own).any()
+        ]
+        return [*self.report["warnings"], *still]
+
+    def moving(self, own: slice) -> set[str]:
+        """Names of the shapes that move some vertices."""
+        return {name for name, moves in zip(self.shapes.names, self._moves(own), strict=True) if moves}
+
+    def _moves(self, own: slice) -> BoolArray:
+        far = np.abs(self.shapes.displacements[:, own]).max(axis=(1, 2), initial=0.0)
+        return far > STILL * self.head.face.mesh.size
+
+
+def plan_names(clones: Clones, existing: str) -> dict[str, str]:
+    """What each cloned shape is to be called on its head, and which are written at all.
+
+    Parameters
+    ----------
+    existing : KEEP, REPLACE or SUFFIX.
+
+    Raises
+    ------
+    RetargetError : if a shape has the name of an object's Basis.
+    """
+    things = clones.head.things
+    taken = {name for thing in things for name in key_names(thing)}
+    bases = {thing.data.shape_keys.reference_key.name: thing for thing in things if thing.data.shape_keys is not None}
+    plan: dict[str, str] = {}
+    for shape in clones.shapes.names:
+        name = shortened(shape)
+        if name in bases:
+            raise RetargetError(f"the Basis of object {bases[name].name!r} has the name of shape {shape!r}; rename one")
+        if existing == "SUFFIX" and name in taken:
+            name = free_name(name, taken)
+        if existing != "KEEP" or not any(is_shaped(thing, name) for thing in things):
+            plan[name] = shape
+            taken.add(name)
+    return plan
+
+
+def write_clones(clones: Clones, plan: Plan, donor: Donor, copying: Copying) -> list[str]:
+    """Write shapes onto every object of a head that they move, with their traits, drivers and animation.
+
+    The face object gets all of them.
+
+    Returns
+    -------
+    What could not be copied, a clause each.
+    """
+    head = clones.head
+    origin = {name: clones.origin[shape] for name, shape in plan.items()}
+    there = {old: new for new, old in reversed(origin.items())}
+    traits = {name: _renamed(donor.traits(old), there) for name, old in origin.items()}
+    unable: list[str] = []
+    for thing, own, matrix in head.slices():
+        moving, inverse = clones.moving(own), np.linalg.inv(matrix).T
+        names = [n for n in plan if thing == head.things[0] or plan[n] in moving or find_key(thing, n) is not None]
+        if names:
+            write_keys(thing, {name: clones.shapes[plan[name]][:, own] @ inverse for name in names}, traits)
+            unable += _copy_motion(thing, {name: origin[name] for name in names}, donor, head.things[0], copying)
+    _remember(clones, plan)
+    return unable
+
+
+def _renamed(traits: KeyTraits, there: Mapping[str, str]) -> KeyTraits:
+    return traits._replace(relative=there.get(traits.relative, traits.relative))
+
+
+def _copy_motion(thing: Object, origin: Mapping[str, str], donor: Donor, face: Object, copying: Copying) -> list[str]:
+    """Copy drivers and animation of the donor's keys that an object's keys come from; returns what could not be."""
+    unable: list[str] = []
+    owners = {name: donor.owner(old) for name, old in origin.items()}
+    for owner in dict.fromkeys(owner for owner in owners.values() if owner is not None):
+        own = {name: old for name, old in origin.items() if owners[name] == owner}
+        if copying.drivers:
+            copy_drivers(owner, thing, own, donor.things, face)
+        if copying.animation:
+            unable += copy_animation(owner, thing, own)
+    return unable
+
+
+def _remember(clones: Clones, plan: Plan) -> None:
+    """List the written keys on the face object, the worst ones first, before those of earlier clones."""
+    face = clones.head.things[0]
+    cloned = face.facial_retarget.cloned
+    for row in reversed(range(len(cloned))):
+        if cloned[row].name in plan or find_key(face, cloned[row].name) is None:
+            cloned.remove(row)
+    row_of = {row["name"]: row for row in clones.rows}
+    rank = {row["name"]: place for place, row in enumerate(worst_first(clones.rows))}
+    for place, name in enumerate(sorted(plan, key=lambda name: rank[clones.origin[plan[name]]])):
+        entry = cloned.add()
+        entry.name, entry.origin = name, clones.origin[plan[name]]
+        entry.note = figures_note(row_of[entry.origin])
+        entry.shape = fingerprint(clones.head.things, name)
+        cloned.move(len(cloned) - 1, place)
+    face.facial_retarget.active_cloned = 0
+
+
+def fingerprint(things: Iterable[Object], name: str) -> str:
+    """Tells whether a shape key of some objects has been changed: it stays while what it moves stays."""
+    found = sha256()
+    for thing in things:
+        key = find_key(thing, name)
+        if key is not None:
+            found.update(key_displacement(key).tobytes())
+    return found.hexdigest()

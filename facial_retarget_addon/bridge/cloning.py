@@ -1,0 +1,162 @@
+"""A whole set of shape keys from one head onto one or several others: read, compute, then write once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+from bpy.types import Context, Object, PropertyGroup
+
+from ..core.arrays import Progress
+from ..core.errors import RetargetError
+from ..core.methods.settings import Settings
+from ..core.problem import Problem
+from ..core.shapes.choose import chosen
+from ..core.shapes.clone import clone_shapes
+from ..core.shapes.combinations import find_correctives
+from ..core.shapes.shape_set import ShapeSet
+from ..core.shapes.sides import arkit_merges, left_share, merged, side_names, split
+from .background import Steps, in_thread, part
+from .clone_report import write_report
+from .clones import Clones, Copying, plan_names, write_clones
+from .donors import Donor, donor_steps
+from .heads import Head, head_parts, read_head
+from .key_sets import check_editable
+from .raycast import available_caster
+from .settings import read_method_settings
+
+MAKING, COMPUTING = 0.05, 0.9
+"""Shares of the time that making the donor and computing take."""
+
+
+class Outcome(NamedTuple):
+    """How many shape keys were cloned, and kept as they were, on how many heads, and what is to be said."""
+
+    cloned: int
+    kept: int
+    heads: int
+    warnings: list[str]
+
+
+def clone_steps(context: Context) -> Steps[Outcome]:
+    """Clone the shape keys that the panel asks for onto the heads that it names.
+
+    Closing the steps at any time leaves the scene as it was: everything is written at the very end.
+
+    Raises
+    ------
+    RetargetError : for bad input; says what, and on which object.
+    """
+    task = context.scene.facial_retarget
+    cloning = task.cloning
+    settings = read_method_settings(task, cloning.method)
+    faces = target_faces(context)
+    donor = yield from part(donor_steps(task), 0.0, MAKING)
+    names = chosen(donor.names, patterns(cloning.keep) or ("*",), patterns(cloning.drop))
+    heads = [read_head(face) for face in faces]
+    check_heads(donor, heads)
+    share = COMPUTING / len(heads)
+    made: list[Clones] = []
+    for i, head in enumerate(heads):
+        work = cloner(donor, head, names, cloning.method, settings, halver(cloning))
+        made.append((yield from part(in_thread(work), MAKING + i * share, share)))
+    yield MAKING + COMPUTING, "Writing"
+    plans = [plan_names(clones, cloning.existing) for clones in made]
+    copying = Copying(cloning.copy_drivers, cloning.copy_animation)
+    warnings: list[str] = []
+    for clones, plan in zip(made, plans, strict=True):
+        said = [*clones.warnings, *write_clones(clones, plan, donor, copying)]
+        warnings += said if len(heads) == 1 else [f"{clones.head.name}: {warning}" for warning in said]
+    write_report({clones.head.name: clones.report for clones in made})
+    cloned = sum(len(plan) for plan in plans)
+    return Outcome(cloned, sum(len(clones.shapes) for clones in made) - cloned, len(heads), warnings)
+
+
+Halving = Callable[[ShapeSet, Head], tuple[ShapeSet, dict[str, str]]]
+"""Shapes of a head -> the same in halves or wholes, and the shape that each one has come from."""
+
+
+def halver(cloning: PropertyGroup) -> Halving:
+    """What the panel wants done with the sides of shapes."""
+    sides, feather = cloning.sides, cloning.feather
+
+    def halve(shapes: ShapeSet, head: Head) -> tuple[ShapeSet, dict[str, str]]:
+        if sides == "MERGE":
+            recipes = arkit_merges(shapes.names)
+            return merged(shapes, recipes), {whole: halves[0] for whole, halves in recipes.items()}
+        if sides == "SPLIT":
+            endings = side_names(shapes.names)
+            halves = split(shapes, left_share(head.face.mesh, head.face.points, feather), endings)
+            return halves, {name + ending: name for name in shapes.names for ending in endings}
+        return shapes, {}
+
+    return halve
+
+
+def cloner(
+    donor: Donor, head: Head, names: Sequence[str], method: str, settings: Settings, halve: Halving
+) -> Callable[[Progress], Clones]:
+    """What clones some of a donor's shapes onto a head, on a thread: all Blender data is read here, before it runs.
+
+    Correctives are cloned together with the shapes that they need, whether these are wanted or not.
+    """
+    correctives = [one for one in find_correctives(donor.names) if one.name in names]
+    needed = {need for one in correctives for need in one.needs}
+    shapes = donor.shapes([name for name in donor.names if name in names or name in needed], head.groups)
+    problem = Problem(donor.face, head.face, make_caster=available_caster())
+
+    def clone(progress: Progress) -> Clones:
+        cloned = clone_shapes(method, problem, settings, shapes, correctives, progress).only(names)
+        halves, origins = halve(cloned.shapes, head)
+        origin = {name: origins.get(name, name) if name not in names else name for name in halves.names}
+        return Clones(head, halves, origin, cloned.rows, cloned.report)
+
+    return clone
+
+
+def patterns(text: str) -> tuple[str, ...]:
+    """Patterns that stand in a text with commas between them."""
+    return tuple(word.strip() for word in text.split(",") if word.strip())
+
+
+def target_faces(context: Context) -> list[Object]:
+    """The face objects that the panel wants shapes cloned onto.
+
+    Raises
+    ------
+    RetargetError : if there are none, or the target is the source.
+    """
+    task = context.scene.facial_retarget
+    source = task.source if task.cloning.donor == "SOURCE" else None
+    if task.cloning.targets == "TARGET":
+        if task.target is None:
+            raise RetargetError("no target is chosen, expected a mesh object under Faces")
+        if task.target == source:
+            raise RetargetError(f"source and target are both object {source.name!r}, expected two objects")
+        return [task.target]
+    selected = [thing for thing in context.selected_objects if thing.type == "MESH" and thing != source]
+    faces = [thing for thing in selected if len(thing.facial_retarget.points)]
+    parts = {piece for face in faces for piece in head_parts(face)} | set(head_parts(source) if source else ())
+    faces = [face for face in faces if face not in parts]
+    if not faces:
+        raise RetargetError(
+            f"none of the {len(selected)} selected mesh objects beside the source has feature points, expected faces"
+        )
+    return sorted(faces, key=lambda face: face.name)
+
+
+def check_heads(donor: Donor, heads: Sequence[Head]) -> None:
+    """RetargetError if target objects cannot be written, or a mesh belongs to two objects: one would change both."""
+    for head in heads:
+        for thing in head.things:
+            check_editable(thing)
+    holders: dict[str, Object] = {}
+    for things in (donor.things, *(head.things for head in heads)):
+        for thing in things:
+            mesh = thing.data.name_full
+            if mesh in holders:
+                raise RetargetError(
+                    f"mesh {mesh!r} is that of object {holders[mesh].name!r} and of object {thing.name!r}, "
+                    "expected objects with a mesh of their own, each on one head"
+                )
+            holders[mesh] = thing
