@@ -58,10 +58,15 @@ class FACIAL_RETARGET_PG_part(PropertyGroup):
     )
 
 
+class FACIAL_RETARGET_PG_origin(PropertyGroup):
+    """A shape key of the source that a cloned one comes from. `name` is inherited."""
+
+
 class FACIAL_RETARGET_PG_cloned_key(PropertyGroup):
     """A shape key that was cloned onto an object. `name` is inherited."""
 
-    origin: StringProperty(name="Origin", description="The source's shape key that it was cloned from")
+    origins: CollectionProperty(type=FACIAL_RETARGET_PG_origin)
+    side: EnumProperty(items=[("WHOLE", "Whole", ""), ("LEFT", "Left half", ""), ("RIGHT", "Right half", "")])
     corrected: BoolProperty(
         name="Corrected", description="As you want it: Re-solve leaves it alone, and teaches the other keys by it"
     )
@@ -215,6 +220,7 @@ for _method, _group in SETTINGS_GROUPS.items():
 CLASSES = (
     FACIAL_RETARGET_PG_feature_point,
     FACIAL_RETARGET_PG_part,
+    FACIAL_RETARGET_PG_origin,
     FACIAL_RETARGET_PG_cloned_key,
     FACIAL_RETARGET_PG_face,
     FACIAL_RETARGET_PG_example,

@@ -33,6 +33,8 @@ CLASSES = (
     retarget.FACIAL_RETARGET_OT_retarget,
     add_actor.FACIAL_RETARGET_OT_add_actor,
     clone_shapes.FACIAL_RETARGET_OT_clone_shapes,
+    clone_shapes.FACIAL_RETARGET_OT_find_corrected,
+    clone_shapes.FACIAL_RETARGET_OT_resolve_shapes,
     jobs.FACIAL_RETARGET_OT_load_job,
     jobs.FACIAL_RETARGET_OT_save_job,
     make_shapes.FACIAL_RETARGET_OT_make_shapes,

@@ -11,7 +11,7 @@ from ..files.pages.report import report_json
 
 REPORT = "Cloned Shapes"
 """Name of the text."""
-NAMED = ("name", "with", "largest_motion", "share_of_source")
+NAMED = ("name", "with", "corrected", "largest_motion", "share_of_source")
 """What a row holds besides figures that are 0 where all is well."""
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from hashlib import sha256
 from typing import Any, NamedTuple
@@ -27,6 +27,13 @@ Plan = Mapping[str, str]
 """Name of a shape key to write -> the cloned shape that it gets."""
 
 
+class Origin(NamedTuple):
+    """The donor's shapes that a cloned one comes from: added up, and cut to a half unless the side is WHOLE."""
+
+    names: tuple[str, ...]
+    side: str = "WHOLE"
+
+
 class Copying(NamedTuple):
     """What is copied with the keys."""
 
@@ -38,13 +45,13 @@ class Copying(NamedTuple):
 class Clones:
     """Shapes for a head, before they are written.
 
-    origin : name of a shape -> the donor's shape that it comes from.
-    rows, report : figures, as `core.shapes.clone` gives them; rows are named by origin.
+    origins : name of a shape -> where it comes from.
+    rows, report : figures, as `core.shapes.clone` gives them; rows have the names of the donor's shapes.
     """
 
     head: Head
     shapes: ShapeSet
-    origin: Mapping[str, str]
+    origins: Mapping[str, Origin]
     rows: list[dict[str, Any]]
     report: dict[str, Any]
 
@@ -95,27 +102,37 @@ def plan_names(clones: Clones, existing: str) -> dict[str, str]:
 
 
 def write_clones(clones: Clones, plan: Plan, donor: Donor, copying: Copying) -> list[str]:
-    """Write shapes onto every object of a head that they move, with their traits, drivers and animation.
-
-    The face object gets all of them.
+    """Write shapes as `write_shapes`, with the traits, drivers and animation of the keys that they come from.
 
     Returns
     -------
     What could not be copied, a clause each.
     """
-    head = clones.head
-    origin = {name: clones.origin[shape] for name, shape in plan.items()}
+    origin = {name: clones.origins[shape].names[0] for name, shape in plan.items()}
     there = {old: new for new, old in reversed(origin.items())}
     traits = {name: _renamed(donor.traits(old), there) for name, old in origin.items()}
     unable: list[str] = []
-    for thing, own, matrix in head.slices():
-        moving, inverse = clones.moving(own), np.linalg.inv(matrix).T
-        names = [n for n in plan if thing == head.things[0] or plan[n] in moving or find_key(thing, n) is not None]
-        if names:
-            write_keys(thing, {name: clones.shapes[plan[name]][:, own] @ inverse for name in names}, traits)
-            unable += _copy_motion(thing, {name: origin[name] for name in names}, donor, head.things[0], copying)
-    _remember(clones, plan)
+    for thing, names in write_shapes(clones, plan, traits).items():
+        own = {name: origin[name] for name in names}
+        unable += _copy_motion(thing, own, donor, clones.head.things[0], copying)
     return unable
+
+
+def write_shapes(clones: Clones, plan: Plan, traits: Mapping[str, KeyTraits]) -> dict[Object, list[str]]:
+    """Write shapes onto every object of a head that they move, and list them; returns which key is on which object.
+
+    The face object gets all of them. Keys without traits keep what they have.
+    """
+    written: dict[Object, list[str]] = {}
+    for thing, own, matrix in clones.head.slices():
+        moving, inverse = clones.moving(own), np.linalg.inv(matrix).T
+        all_of_them = thing == clones.head.things[0]
+        names = [n for n in plan if all_of_them or plan[n] in moving or find_key(thing, n) is not None]
+        if names:
+            write_keys(thing, {name: clones.shapes[plan[name]][own] @ inverse for name in names}, traits)
+            written[thing] = names
+    _remember(clones, plan)
+    return written
 
 
 def _renamed(traits: KeyTraits, there: Mapping[str, str]) -> KeyTraits:
@@ -142,21 +159,23 @@ def _remember(clones: Clones, plan: Plan) -> None:
     for row in reversed(range(len(cloned))):
         if cloned[row].name in plan or find_key(face, cloned[row].name) is None:
             cloned.remove(row)
-    row_of = {row["name"]: row for row in clones.rows}
     rank = {row["name"]: place for place, row in enumerate(worst_first(clones.rows))}
-    for place, name in enumerate(sorted(plan, key=lambda name: rank[clones.origin[plan[name]]])):
+    notes = {row["name"]: figures_note(row) for row in clones.rows}
+    for place, name in enumerate(sorted(plan, key=lambda name: rank[clones.origins[plan[name]].names[0]])):
+        origin = clones.origins[plan[name]]
         entry = cloned.add()
-        entry.name, entry.origin = name, clones.origin[plan[name]]
-        entry.note = figures_note(row_of[entry.origin])
-        entry.shape = fingerprint(clones.head.things, name)
+        entry.name, entry.side, entry.note = name, origin.side, notes[origin.names[0]]
+        for old in origin.names:
+            entry.origins.add().name = old
+        entry.shape = fingerprint(clones.head, name)
         cloned.move(len(cloned) - 1, place)
     face.facial_retarget.active_cloned = 0
 
 
-def fingerprint(things: Iterable[Object], name: str) -> str:
-    """Tells whether a shape key of some objects has been changed: it stays while what it moves stays."""
+def fingerprint(head: Head, name: str) -> str:
+    """Tells whether a shape key of a head has been changed: it stays while what the key moves stays."""
     found = sha256()
-    for thing in things:
+    for thing in head.things:
         key = find_key(thing, name)
         if key is not None:
             found.update(key_displacement(key).tobytes())

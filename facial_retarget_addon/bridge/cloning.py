@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from itertools import chain
 from typing import NamedTuple
 
 from bpy.types import Context, Object, PropertyGroup
@@ -15,10 +16,10 @@ from ..core.shapes.choose import chosen
 from ..core.shapes.clone import clone_shapes
 from ..core.shapes.combinations import find_correctives
 from ..core.shapes.shape_set import ShapeSet
-from ..core.shapes.sides import arkit_merges, left_share, merged, side_names, split
+from ..core.shapes.sides import SideNames, arkit_merges, has_side, left_share, merged, side_names, split
 from .background import Steps, in_thread, part
 from .clone_report import write_report
-from .clones import Clones, Copying, plan_names, write_clones
+from .clones import Clones, Copying, Origin, plan_names, write_clones
 from .donors import Donor, donor_steps
 from .heads import Head, head_parts, read_head
 from .key_sets import check_editable
@@ -63,32 +64,41 @@ def clone_steps(context: Context) -> Steps[Outcome]:
     yield MAKING + COMPUTING, "Writing"
     plans = [plan_names(clones, cloning.existing) for clones in made]
     copying = Copying(cloning.copy_drivers, cloning.copy_animation)
-    warnings: list[str] = []
-    for clones, plan in zip(made, plans, strict=True):
-        said = [*clones.warnings, *write_clones(clones, plan, donor, copying)]
-        warnings += said if len(heads) == 1 else [f"{clones.head.name}: {warning}" for warning in said]
+    unable = [write_clones(clones, plan, donor, copying) for clones, plan in zip(made, plans, strict=True)]
     write_report({clones.head.name: clones.report for clones in made})
     cloned = sum(len(plan) for plan in plans)
-    return Outcome(cloned, sum(len(clones.shapes) for clones in made) - cloned, len(heads), warnings)
+    kept = sum(len(clones.shapes) for clones in made) - cloned
+    return Outcome(cloned, kept, len(heads), [*named_warnings(made), *dict.fromkeys(chain(*unable))])
 
 
-Halving = Callable[[ShapeSet, Head], tuple[ShapeSet, dict[str, str]]]
-"""Shapes of a head -> the same in halves or wholes, and the shape that each one has come from."""
+def named_warnings(made: Sequence[Clones]) -> list[str]:
+    """The warnings of all heads; each says which head it means if there are several."""
+    if len(made) == 1:
+        return made[0].warnings
+    return [f"{clones.head.name}: {warning}" for clones in made for warning in clones.warnings]
+
+
+Halving = Callable[[ShapeSet, Head], tuple[ShapeSet, dict[str, Origin]]]
+"""Shapes of a head -> the same in halves or wholes, and where each one comes from."""
 
 
 def halver(cloning: PropertyGroup) -> Halving:
     """What the panel wants done with the sides of shapes."""
     sides, feather = cloning.sides, cloning.feather
 
-    def halve(shapes: ShapeSet, head: Head) -> tuple[ShapeSet, dict[str, str]]:
+    def halve(shapes: ShapeSet, head: Head) -> tuple[ShapeSet, dict[str, Origin]]:
+        origins = {name: Origin((name,)) for name in shapes.names}
         if sides == "MERGE":
             recipes = arkit_merges(shapes.names)
-            return merged(shapes, recipes), {whole: halves[0] for whole, halves in recipes.items()}
+            return merged(shapes, recipes), origins | {whole: Origin(halves) for whole, halves in recipes.items()}
         if sides == "SPLIT":
-            endings = side_names(shapes.names)
-            halves = split(shapes, left_share(head.face.mesh, head.face.points, feather), endings)
-            return halves, {name + ending: name for name in shapes.names for ending in endings}
-        return shapes, {}
+            left, right = side_names(shapes.names)
+            for name in shapes.names:
+                if not has_side(name):
+                    origins |= {name + left: Origin((name,), "LEFT"), name + right: Origin((name,), "RIGHT")}
+            share = left_share(head.face.mesh, head.face.points, feather)
+            return split(shapes, share, SideNames(left, right)), origins
+        return shapes, origins
 
     return halve
 
@@ -107,9 +117,8 @@ def cloner(
 
     def clone(progress: Progress) -> Clones:
         cloned = clone_shapes(method, problem, settings, shapes, correctives, progress).only(names)
-        halves, origins = halve(cloned.shapes, head)
-        origin = {name: origins.get(name, name) if name not in names else name for name in halves.names}
-        return Clones(head, halves, origin, cloned.rows, cloned.report)
+        shown, origins = halve(cloned.shapes, head)
+        return Clones(head, shown, origins, cloned.rows, cloned.report)
 
     return clone
 

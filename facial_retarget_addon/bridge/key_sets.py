@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -90,7 +90,7 @@ def group_weights(thing: Object, name: str) -> FloatArray:
 
 
 def write_keys(thing: Object, shapes: Mapping[str, FloatArray], traits: Mapping[str, KeyTraits]) -> None:
-    """Set shape keys, made where they are missing.
+    """Set shape keys, made where they are missing. Other keys that are relative to them go on moving what they moved.
 
     Parameters
     ----------
@@ -100,18 +100,22 @@ def write_keys(thing: Object, shapes: Mapping[str, FloatArray], traits: Mapping[
     ensure_basis(thing)
     for name in shapes:
         ensure_key(thing, name)
+    others = {name: key_displacement(find_key(thing, name)) for name in key_names(thing) if name not in shapes}
     for name in shapes:
         if name in traits:
             write_traits(thing, find_key(thing, name), traits[name])
-    for name in _bases_first(thing, shapes):
+    written = set(shapes)
+    for name in _bases_first(thing):
         key = find_key(thing, name)
-        write_key(key, _positions(key.relative_key) + shapes[name])
+        if name in shapes or key.relative_key.name in written:
+            write_key(key, _positions(key.relative_key) + (shapes[name] if name in shapes else others[name]))
+            written.add(name)
     thing.data.update()
 
 
-def _bases_first(thing: Object, names: Iterable[str]) -> list[str]:
-    """The names, each after the key that it is relative to; keys that are relative to each other in the order given."""
-    waiting, ordered = dict.fromkeys(names), []
+def _bases_first(thing: Object) -> list[str]:
+    """An object's keys, each after the one that it is relative to; of those in a ring the first one first."""
+    waiting, ordered = dict.fromkeys(key_names(thing)), []
     while waiting:
         ready = [name for name in waiting if find_key(thing, name).relative_key.name not in waiting.keys() - {name}]
         for name in ready or list(waiting)[:1]:

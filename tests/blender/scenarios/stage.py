@@ -77,7 +77,7 @@ def donor_pair(vertices: int = 4_500) -> tuple[bpy.types.Object, bpy.types.Objec
 
 
 def demo_object(face: object, name: str, pieces: bool = False) -> bpy.types.Object:
-    """A built-in face as an object with its feature points; with `pieces` eyes, teeth and wall are objects of its head."""
+    """A built-in face as an object with its feature points; with `pieces` what is not skin is objects of its head."""
     counts, corners, vertices = face.counts, face.corners, face.face.mesh.vertices
     labels = face.face.mesh.components if pieces else np.zeros(len(vertices), int)
     made = []
