@@ -28,7 +28,7 @@ class FACIAL_RETARGET_OT_clone_shapes(OnCloning, InSteps, Operator):
         for warning in result.warnings:
             self.report({"WARNING"}, warning)
         kept = f", {result.kept} kept" if result.kept else ""
-        heads = f" on each of {result.heads} heads" if result.heads > 1 else ""
+        heads = f" onto {result.heads} heads" if result.heads > 1 else ""
         self.report({"INFO"}, f"{result.cloned} shape keys cloned{heads}{kept}")
 
 

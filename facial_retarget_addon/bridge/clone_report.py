@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import bpy
@@ -15,11 +15,12 @@ NAMED = ("name", "with", "corrected", "largest_motion", "share_of_source")
 """What a row holds besides figures that are 0 where all is well."""
 
 
-def worst_first(rows: Sequence[Mapping[str, Any]]) -> list[Mapping[str, Any]]:
-    """The rows of shapes, those with the most trouble first: the sum of their figures, each over its greatest."""
-    figures = {name for row in rows for name in trouble(row)}
-    greatest = {name: max(abs(trouble(row).get(name, 0.0)) for row in rows) or 1.0 for name in figures}
-    return sorted(rows, key=lambda row: -sum(abs(value) / greatest[name] for name, value in trouble(row).items()))
+def worst_first(rows: Mapping[str, Mapping[str, Any]]) -> list[str]:
+    """The names of rows, those with the most trouble first: the sum of their figures, each over its greatest."""
+    figures = {figure for row in rows.values() for figure in trouble(row)}
+    greatest = {figure: max(abs(trouble(row).get(figure, 0.0)) for row in rows.values()) or 1.0 for figure in figures}
+    total = {name: sum(abs(v) / greatest[figure] for figure, v in trouble(row).items()) for name, row in rows.items()}
+    return sorted(rows, key=lambda name: -total[name])
 
 
 def trouble(row: Mapping[str, Any]) -> dict[str, float]:
@@ -36,5 +37,8 @@ def figures_note(row: Mapping[str, Any]) -> str:
 def write_report(reports: Mapping[str, Mapping[str, Any]]) -> None:
     """Set the text of the report, made if there is none: head -> its report, with the shapes' rows worst first."""
     text = bpy.data.texts.get(REPORT) or bpy.data.texts.new(REPORT)
-    ordered = {head: {**report, "shapes": worst_first(report["shapes"])} for head, report in reports.items()}
+    ordered = {}
+    for head, report in reports.items():
+        rows = {row["name"]: row for row in report["shapes"]}
+        ordered[head] = {**report, "shapes": [rows[name] for name in worst_first(rows)]}
     text.from_string(report_json(ordered).decode())

@@ -10,7 +10,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from bpy.types import Object
 
-from ..core.arrays import BoolArray
 from ..core.errors import RetargetError
 from ..core.shapes.clone import STILL
 from ..core.shapes.shape_set import ShapeSet
@@ -46,32 +45,35 @@ class Clones:
     """Shapes for a head, before they are written.
 
     origins : name of a shape -> where it comes from.
-    rows, report : figures, as `core.shapes.clone` gives them; rows have the names of the donor's shapes.
+    rows : name of a shape -> its figures. report : of all, as `core.shapes.clone` gives it.
     """
 
     head: Head
     shapes: ShapeSet
     origins: Mapping[str, Origin]
-    rows: list[dict[str, Any]]
+    rows: Mapping[str, Mapping[str, Any]]
     report: dict[str, Any]
 
     @property
     def warnings(self) -> list[str]:
-        """What the report says, and the parts that no shape moves."""
+        """What the report says, and the objects that no method can move because nothing tells what they are."""
         still = [
-            f"object {thing.name!r} of head {self.head.name!r} stays still: no cloned shape moves it"
+            f"object {thing.name!r} of head {self.head.name!r} stays still; give it a role if it shall move"
             for thing, own, _ in self.head.slices()
-            if thing != self.head.things[0] and not self._moves(own).any()
+            if thing in self.head.untold and self._is_still(own)
         ]
         return [*self.report["warnings"], *still]
 
+    def _is_still(self, own: slice) -> bool:
+        """Whether some vertices belong to parts that never move."""
+        found = [row for row in self.report["still_components"] if own.start <= row["first_vertex"] < own.stop]
+        return sum(row["vertices"] for row in found) == own.stop - own.start
+
     def moving(self, own: slice) -> set[str]:
         """Names of the shapes that move some vertices."""
-        return {name for name, moves in zip(self.shapes.names, self._moves(own), strict=True) if moves}
-
-    def _moves(self, own: slice) -> BoolArray:
         far = np.abs(self.shapes.displacements[:, own]).max(axis=(1, 2), initial=0.0)
-        return far > STILL * self.head.face.mesh.size
+        moves = far > STILL * self.head.face.mesh.size
+        return {name for name, one in zip(self.shapes.names, moves.tolist(), strict=True) if one}
 
 
 def plan_names(clones: Clones, existing: str) -> dict[str, str]:
@@ -159,12 +161,10 @@ def _remember(clones: Clones, plan: Plan) -> None:
     for row in reversed(range(len(cloned))):
         if cloned[row].name in plan or find_key(face, cloned[row].name) is None:
             cloned.remove(row)
-    rank = {row["name"]: place for place, row in enumerate(worst_first(clones.rows))}
-    notes = {row["name"]: figures_note(row) for row in clones.rows}
-    for place, name in enumerate(sorted(plan, key=lambda name: rank[clones.origins[plan[name]].names[0]])):
+    for place, name in enumerate(worst_first({name: clones.rows[shape] for name, shape in plan.items()})):
         origin = clones.origins[plan[name]]
         entry = cloned.add()
-        entry.name, entry.side, entry.note = name, origin.side, notes[origin.names[0]]
+        entry.name, entry.side, entry.note = name, origin.side, figures_note(clones.rows[plan[name]])
         for old in origin.names:
             entry.origins.add().name = old
         entry.shape = fingerprint(clones.head, name)

@@ -56,11 +56,9 @@ def clone_steps(context: Context) -> Steps[Outcome]:
     names = chosen(donor.names, patterns(cloning.keep) or ("*",), patterns(cloning.drop))
     heads = [read_head(face) for face in faces]
     check_heads(donor, heads)
-    share = COMPUTING / len(heads)
-    made: list[Clones] = []
-    for i, head in enumerate(heads):
-        work = cloner(donor, head, names, cloning.method, settings, halver(cloning))
-        made.append((yield from part(in_thread(work), MAKING + i * share, share)))
+    halve = halver(cloning)
+    works = [cloner(donor, head, names, cloning.method, settings, halve) for head in heads]
+    made = yield from part(computed(heads, works), MAKING, COMPUTING)
     yield MAKING + COMPUTING, "Writing"
     plans = [plan_names(clones, cloning.existing) for clones in made]
     copying = Copying(cloning.copy_drivers, cloning.copy_animation)
@@ -69,6 +67,24 @@ def clone_steps(context: Context) -> Steps[Outcome]:
     cloned = sum(len(plan) for plan in plans)
     kept = sum(len(clones.shapes) for clones in made) - cloned
     return Outcome(cloned, kept, len(heads), [*named_warnings(made), *dict.fromkeys(chain(*unable))])
+
+
+def computed(heads: Sequence[Head], works: Sequence[Callable[[Progress], Clones]]) -> Steps[list[Clones]]:
+    """What each head's work makes, one after the other on a thread.
+
+    Raises
+    ------
+    RetargetError : as the works; it says which head it means if there are several.
+    """
+    made: list[Clones] = []
+    for i, (head, work) in enumerate(zip(heads, works, strict=True)):
+        try:
+            made.append((yield from part(in_thread(work), i / len(heads), 1 / len(heads))))
+        except RetargetError as error:
+            if len(heads) == 1:
+                raise
+            raise RetargetError(f"{head.name}: {error}") from error
+    return made
 
 
 def named_warnings(made: Sequence[Clones]) -> list[str]:
@@ -118,7 +134,9 @@ def cloner(
     def clone(progress: Progress) -> Clones:
         cloned = clone_shapes(method, problem, settings, shapes, correctives, progress).only(names)
         shown, origins = halve(cloned.shapes, head)
-        return Clones(head, shown, origins, cloned.rows, cloned.report)
+        rows = {row["name"]: row for row in cloned.rows}
+        figures = {name: rows[origins[name].names[0]] for name in shown.names}
+        return Clones(head, shown, origins, figures, cloned.report)
 
     return clone
 

@@ -92,8 +92,8 @@ class ActorDonor:
 
     @property
     def face(self) -> Face:
-        """Mesh and points."""
-        return self.built.face
+        """Mesh and points; its examples are other things than shapes to clone."""
+        return Face(self.built.face.mesh, self.built.face.points)
 
     @property
     def names(self) -> Sequence[str]:

@@ -34,12 +34,14 @@ class Head:
     starts : (n + 1,) the first vertex of each object among the head's, and how many there are.
     linear : (n, 3, 3) displacements in an object's own coordinates to the head's, which are the face space of the face.
     face : mesh, points and named parts for the core.
+    untold : parts whose role is to be told by where they lie.
     """
 
     things: tuple[Object, ...]
     starts: IntArray
     linear: FloatArray
     face: Face
+    untold: tuple[Object, ...] = ()
 
     @property
     def name(self) -> str:
@@ -109,6 +111,7 @@ def read_head(face: Object) -> Head:
         starts,
         np.stack([matrix[:3, :3] for matrix in matrices]),
         Face(mesh, _points(things, starts), named_parts={role: np.concatenate(held) for role, held in named.items()}),
+        tuple(part.thing for part in face.facial_retarget.parts if part.role == BY_PLACE and part.thing in things),
     )
 
 

@@ -100,25 +100,32 @@ def write_keys(thing: Object, shapes: Mapping[str, FloatArray], traits: Mapping[
     ensure_basis(thing)
     for name in shapes:
         ensure_key(thing, name)
-    others = {name: key_displacement(find_key(thing, name)) for name in key_names(thing) if name not in shapes}
+    moves = {name: key_displacement(find_key(thing, name)) for name in _dependents(thing, shapes)} | dict(shapes)
     for name in shapes:
         if name in traits:
             write_traits(thing, find_key(thing, name), traits[name])
-    written = set(shapes)
     for name in _bases_first(thing):
-        key = find_key(thing, name)
-        if name in shapes or key.relative_key.name in written:
-            write_key(key, _positions(key.relative_key) + (shapes[name] if name in shapes else others[name]))
-            written.add(name)
+        if name in moves:
+            key = find_key(thing, name)
+            write_key(key, _positions(key.relative_key) + moves[name])
     thing.data.update()
+
+
+def _dependents(thing: Object, names: Collection[str]) -> set[str]:
+    """The keys that are relative to some keys, or to others that are."""
+    found = set(names)
+    for name in _bases_first(thing):
+        if find_key(thing, name).relative_key.name in found:
+            found.add(name)
+    return found - set(names)
 
 
 def _bases_first(thing: Object) -> list[str]:
     """An object's keys, each after the one that it is relative to; of those in a ring the first one first."""
     waiting, ordered = dict.fromkeys(key_names(thing)), []
     while waiting:
-        ready = [name for name in waiting if find_key(thing, name).relative_key.name not in waiting.keys() - {name}]
-        for name in ready or list(waiting)[:1]:
+        base = {name: find_key(thing, name).relative_key.name for name in waiting}
+        for name in [name for name in base if base[name] == name or base[name] not in base] or list(waiting)[:1]:
             ordered.append(name)
             del waiting[name]
     return ordered

@@ -17,10 +17,10 @@ from ..core.shapes.combinations import Corrective, find_correctives
 from ..core.shapes.resolve import resolve_shapes
 from ..core.shapes.shape_set import ShapeSet
 from ..core.shapes.sides import left_share
-from .background import Steps, in_thread, part
+from .background import Steps, part
 from .clone_report import write_report
 from .clones import Clones, Origin, fingerprint, write_shapes
-from .cloning import COMPUTING, MAKING, check_heads, named_warnings, target_faces
+from .cloning import COMPUTING, MAKING, check_heads, computed, named_warnings, target_faces
 from .donors import Donor, donor_steps
 from .heads import Head, read_head
 from .raycast import available_caster
@@ -71,11 +71,8 @@ def resolve_steps(context: Context) -> Steps[Solved]:
     heads = [read_head(face) for face in faces]
     check_heads(donor, heads)
     lessons = [_lesson(donor, head) for head in heads]
-    share = COMPUTING / len(heads)
-    made: list[Clones] = []
-    for i, lesson in enumerate(lessons):
-        work = solver(donor, lesson, cloning.method, settings, cloning.feather)
-        made.append((yield from part(in_thread(work), MAKING + i * share, share)))
+    works = [solver(donor, lesson, cloning.method, settings, cloning.feather) for lesson in lessons]
+    made = yield from part(computed(heads, works), MAKING, COMPUTING)
     yield MAKING + COMPUTING, "Writing"
     for clones, lesson in zip(made, lessons, strict=True):
         write_shapes(clones, {name: name for name in clones.shapes.names}, {})
@@ -150,7 +147,7 @@ def solver(
         shapes = ShapeSet(tuple(wanted), moves)
         solved = resolve_shapes(method, problem, settings, shapes, corrected, correctives, progress)
         solved = solved.only([name for name in origins if name not in corrected.names])
-        return Clones(head, solved.shapes, origins, solved.rows, solved.report)
+        return Clones(head, solved.shapes, origins, {row["name"]: row for row in solved.rows}, solved.report)
 
     return solve
 
