@@ -1,4 +1,4 @@
-"""facial-retarget: do a job, check a job, play MPEG-4 motion, make shapes, or see the built-in demonstration.
+"""facial-retarget: do a job, check a job, play MPEG-4 motion, make or clone shapes, or see the built-in demonstration.
 
 Exit status 0 when all went well, 2 with one line on standard error for bad input, 130 for Ctrl-C.
 """
@@ -16,6 +16,7 @@ from .core.errors import Cancelled, RetargetError
 from .terminal import clear, progress_on
 
 if TYPE_CHECKING:
+    from .files.clone_job import CloneJob
     from .files.mpeg4_face import FapFaceFiles
 
 BAD_INPUT = 2
@@ -52,6 +53,8 @@ def _parser() -> argparse.ArgumentParser:
     _add_fap_arguments(fap)
     shapes = commands.add_parser("shapes", help="give a face the standard's shapes, from its feature points alone")
     _add_shapes_arguments(shapes)
+    clone = commands.add_parser("clone", help="give the shapes of one head to one or many others")
+    _add_clone_arguments(clone)
     markers = commands.add_parser("markers", help="begin a marker map: which marker sits on which feature point")
     _add_markers_arguments(markers)
     morph = commands.add_parser("morph", help="make a generic head into another by its feature points alone")
@@ -59,7 +62,7 @@ def _parser() -> argparse.ArgumentParser:
     demo = commands.add_parser("demo", help="write the built-in faces and their jobs, and do them")
     demo.add_argument("folder", type=Path, nargs="?", default=Path("demo"), help="where to (default: demo)")
     demo.set_defaults(command=_demo)
-    for command in (run, check, fap, shapes, markers, morph, demo):
+    for command in (run, check, fap, shapes, clone, markers, morph, demo):
         command.add_argument("--quiet", action="store_true", default=argparse.SUPPRESS, help="no progress")
     return parser
 
@@ -88,6 +91,27 @@ def _add_shapes_arguments(shapes: argparse.ArgumentParser) -> None:
     )
     _add_face_arguments(shapes, required=True)
     shapes.set_defaults(command=_shapes)
+
+
+def _add_clone_arguments(clone: argparse.ArgumentParser) -> None:
+    clone.add_argument("job", type=Path, nargs="?", help="a clone job (TOML), in place of all that follows")
+    files = ("NEUTRAL", "POINTS", "SHAPES")
+    clone.add_argument("--source", type=Path, nargs=3, metavar=files, help="the head that has the shapes")
+    clone.add_argument(
+        "--target",
+        type=Path,
+        nargs=3,
+        metavar=files,
+        action="append",
+        help="a head that gets them, and where to (a folder, .npz or .json); may be given several times",
+    )
+    clone.add_argument("--method", help="a method, with its default settings (default: motion_cloning)")
+    clone.add_argument("--keep", action="append", metavar="PATTERN", help="shapes that go over, such as 'mouth*'")
+    clone.add_argument("--drop", action="append", metavar="PATTERN", help="shapes that do not")
+    clone.add_argument(
+        "--page", action="store_true", help="a page (.html), a contact sheet (.png) and figures (.report.json) as well"
+    )
+    clone.set_defaults(command=_clone)
 
 
 def _add_markers_arguments(markers: argparse.ArgumentParser) -> None:
@@ -187,6 +211,51 @@ def _shapes(arguments: argparse.Namespace) -> int:
     task = ShapesTask(face, tuple(arguments.set), arguments.out, arguments.report, arguments.page)
     _warn(run_shapes_task(task, _progress(arguments))["warnings"])
     return 0
+
+
+def _clone(arguments: argparse.Namespace) -> int:
+    from .files.clone_job import read_clone_job
+    from .files.clone_task import run_clone_job
+
+    job = read_clone_job(arguments.job) if arguments.job is not None else None
+    flags = [name for name in _CLONE_FLAGS if getattr(arguments, name)]
+    if job is not None and flags:
+        raise RetargetError(f"a clone job says all by itself, but --{', --'.join(flags)} came with {arguments.job}")
+    if job is None:
+        job = _clone_job_of(arguments)
+    for target, report in zip(job.targets, run_clone_job(job, _progress(arguments)), strict=True):
+        _warn(f"{target.face.neutral.name}: {text}" for text in report["warnings"])
+        print(f"{target.shapes}: {len(report['shapes'])} shapes")
+    return 0
+
+
+_CLONE_FLAGS = ("source", "target", "method", "keep", "drop", "page")
+
+
+def _clone_job_of(arguments: argparse.Namespace) -> CloneJob:
+    """The clone job that the options say."""
+    from .core.methods import METHODS
+    from .core.methods.settings import SETTINGS
+    from .core.shapes.prepare import Preparation
+    from .files.clone_job import METHOD, CloneJob, TargetFiles
+    from .files.job import FaceFiles
+
+    method = arguments.method or METHOD
+    if method not in METHODS:
+        raise RetargetError(f"--method {method} is unknown, expected one of {', '.join(METHODS)}")
+    if arguments.source is None or not arguments.target:
+        raise RetargetError("clone expects a job file, or --source and at least one --target")
+    targets = []
+    for neutral, points, shapes in arguments.target:
+        beside = {key: shapes.with_suffix(end) for key, end in _BESIDE.items()} if arguments.page else {}
+        targets.append(TargetFiles(FaceFiles(neutral, points), shapes, **beside))
+    neutral, points, shapes = arguments.source
+    how = Preparation(tuple(arguments.keep or ("*",)), tuple(arguments.drop or ()))
+    return CloneJob(FaceFiles(neutral, points), shapes, tuple(targets), how, method, SETTINGS[method]())
+
+
+_BESIDE = {"page": ".html", "sheet": ".png", "report": ".report.json"}
+"""What `clone --page` writes beside the shapes."""
 
 
 def _morph(arguments: argparse.Namespace) -> int:

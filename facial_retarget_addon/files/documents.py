@@ -6,7 +6,7 @@ import json
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 from ..core.errors import RetargetError
 
@@ -15,7 +15,16 @@ T = TypeVar("T")
 MOST_FAULTS = 12
 """Faults of one file that a message spells out."""
 
-_KINDS = {str: "a text", int: "a whole number", dict: "a table", list: "a list"}
+_MOST_WHOLE = 2**53
+"""Whole numbers up to this one are numbers too."""
+_KINDS = {
+    str: "a text",
+    int: "a whole number",
+    float: "a number",
+    bool: "true or false",
+    dict: "a table",
+    list: "a list",
+}
 
 
 def read_bytes(path: Path) -> bytes:
@@ -87,6 +96,8 @@ class Table:
             self.wrong.append(f"{self._name(key)} is missing, expected {_KINDS[kind]}")
             return kind()
         value = self._values[key]
+        if type(value) is int and kind is float and abs(value) <= _MOST_WHOLE:
+            return cast(T, float(value))
         if type(value) is kind:
             return value
         self.wrong.append(f"{self._name(key)} = {value!r:.60}, expected {_KINDS[kind]}")
@@ -104,6 +115,10 @@ class Table:
         if type(value) is not type(expected) or value != expected:
             arrived = f"= {value!r:.60}" if key in self._values else "is missing"
             self.wrong.append(f"{self._name(key)} {arrived}, expected {expected!r}")
+
+    def names(self) -> list[str]:
+        """All its keys, for a table whose keys the user chooses."""
+        return list(self._values)
 
     def table(self, key: str) -> Table:
         """A table inside, empty where it is missing."""

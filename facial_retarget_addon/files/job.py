@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
 from ..core.errors import RetargetError
-from ..core.methods import METHODS
-from ..core.methods.settings import SETTINGS, Settings, read_settings
+from ..core.methods.settings import Settings
 from .documents import Table, fault_sentence, read_toml
+from .job_values import check_method, read_method_settings, read_optional_path, read_path, relative, toml
 from .whole import overwritten, write_whole
 
 VERSION = 1
@@ -96,16 +95,15 @@ def read_job(path: Path) -> Job:
     root = Table(read_toml(path), "", wrong)
     root.expect("version", VERSION)
     method = root.get("method", str)
-    if method not in METHODS:
-        wrong.append(f"method = {method!r}, expected one of {', '.join(METHODS)}")
+    check_method(method, wrong)
     job = Job(
         method=method,
         source=_read_face(root.table("source"), path.parent, ("points", "parts"), ("frames",)),
         target=_read_face(root.table("target"), path.parent, ("points", "parts"), ()),
         examples=_read_examples(root, path.parent),
-        settings=_read_settings(method, root),
+        settings=read_method_settings(method, root),
         output=_read_output(root.table("output"), path.parent),
-        base=_optional_path(root, "base", path.parent),
+        base=read_optional_path(root, "base", path.parent),
         path=path,
     )
     root.no_more()
@@ -117,8 +115,8 @@ def read_job(path: Path) -> Job:
 
 
 def _read_face(table: Table, folder: Path, optional: tuple[str, ...], required: tuple[str, ...]) -> FaceFiles:
-    found: dict[str, Any] = {key: _path(table, key, folder) for key in ("neutral", *required)}
-    found |= {key: _optional_path(table, key, folder) for key in optional}
+    found: dict[str, Any] = {key: read_path(table, key, folder) for key in ("neutral", *required)}
+    found |= {key: read_optional_path(table, key, folder) for key in optional}
     table.no_more()
     return FaceFiles(**found)
 
@@ -130,40 +128,19 @@ def _read_examples(root: Table, folder: Path) -> tuple[ExampleFiles, ...]:
         name = table.get("name", str)
         if any(name == other.name for other in examples):
             root.wrong.append(f"{table.where} name {name!r} appears twice, expected unique names")
-        examples.append(ExampleFiles(name, _path(table, "source", folder), _path(table, "target", folder)))
+        examples.append(ExampleFiles(name, read_path(table, "source", folder), read_path(table, "target", folder)))
         table.no_more()
     return tuple(examples)
 
 
-def _read_settings(method: str, root: Table) -> Settings:
-    values = root.optional("settings", dict) or {}
-    if method in METHODS:
-        try:
-            return read_settings(method, values)
-        except RetargetError as error:
-            root.wrong.append(str(error))
-    return next(iter(SETTINGS.values()))()
-
-
 def _read_output(table: Table, folder: Path) -> OutputFiles:
     output = OutputFiles(
-        _path(table, "frames", folder), _optional_path(table, "report", folder), _optional_path(table, "page", folder)
+        read_path(table, "frames", folder),
+        read_optional_path(table, "report", folder),
+        read_optional_path(table, "page", folder),
     )
     table.no_more()
     return output
-
-
-def _path(table: Table, key: str, folder: Path) -> Path:
-    faults = len(table.wrong)
-    text = table.get(key, str)
-    if len(table.wrong) == faults and (not text.strip() or "\0" in text):
-        table.wrong.append(f"{table.where} {key} = {text!r}, expected a path".strip())
-        return folder
-    return folder / text
-
-
-def _optional_path(table: Table, key: str, folder: Path) -> Path | None:
-    return _path(table, key, folder) if table.optional(key, str) is not None else None
 
 
 def write_job(job: Job, path: Path) -> None:
@@ -176,36 +153,22 @@ def write_job(job: Job, path: Path) -> None:
     RetargetError : if the system refuses to write, or a name or path is no Unicode text.
     """
     folder = path.absolute().parent
-    lines = [f"version = {VERSION}", f"method = {_toml(job.method)}"]
+    lines = [f"version = {VERSION}", f"method = {toml(job.method)}"]
     if job.base is not None:
-        lines.append(f"base = {_toml(_relative(job.base, folder))}")
+        lines.append(f"base = {toml(relative(job.base, folder))}")
     lines += _face_lines("source", job.source, folder) + _face_lines("target", job.target, folder)
     for example in job.examples:
-        lines += ["", "[[examples]]", f"name = {_toml(example.name)}"]
-        lines += [f"{key} = {_toml(_relative(getattr(example, key), folder))}" for key in ("source", "target")]
+        lines += ["", "[[examples]]", f"name = {toml(example.name)}"]
+        lines += [f"{key} = {toml(relative(getattr(example, key), folder))}" for key in ("source", "target")]
     lines += ["", "[settings]"]
-    lines += [f"{field.name} = {_toml(getattr(job.settings, field.name))}" for field in fields(job.settings)]
+    lines += [f"{field.name} = {toml(getattr(job.settings, field.name))}" for field in fields(job.settings)]
     lines += ["", "[output]"]
-    lines += [f"{key.split()[1]} = {_toml(_relative(file, folder))}" for key, file in job.outputs().items()]
+    lines += [f"{key.split()[1]} = {toml(relative(file, folder))}" for key, file in job.outputs().items()]
     write_whole(path, ("\n".join(lines) + "\n").encode())
 
 
 def _face_lines(name: str, face: FaceFiles, folder: Path) -> list[str]:
     files = {"neutral": face.neutral, "points": face.points, "parts": face.parts, "frames": face.frames}
     return ["", f"[{name}]"] + [
-        f"{key} = {_toml(_relative(file, folder))}" for key, file in files.items() if file is not None
+        f"{key} = {toml(relative(file, folder))}" for key, file in files.items() if file is not None
     ]
-
-
-def _relative(path: Path, folder: Path) -> str:
-    return (path.relative_to(folder) if path.is_relative_to(folder) else path).as_posix()
-
-
-def _toml(value: str | float | tuple[float, ...]) -> str:
-    if isinstance(value, tuple):
-        return f"[{', '.join(_toml(part) for part in value)}]"
-    if isinstance(value, str):
-        if not value.isascii() and value.encode("utf-8", "ignore").decode() != value:
-            raise RetargetError(f"{value!r} cannot stand in a job file: it is no Unicode text")
-        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
-    return repr(value)

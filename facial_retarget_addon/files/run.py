@@ -108,7 +108,7 @@ def read_inputs(job: Job) -> Inputs:
     ------
     RetargetError : if files are missing or unreadable; names all of them.
     """
-    reading = _Reading()
+    reading = Reading()
     inputs = reading.inputs(job)
     if reading.wrong or inputs is None:
         raise RetargetError("; ".join(reading.wrong))
@@ -117,7 +117,7 @@ def read_inputs(job: Job) -> Inputs:
 
 def _read(job: Job) -> tuple[Inputs | None, list[str]]:
     """What the files hold, and what is wrong with them; None where so much is unreadable that there is no problem."""
-    reading = _Reading()
+    reading = Reading()
     inputs = reading.inputs(job)
     reading.attempt(check_frames_place, job.output.frames)
     for output in (job.output.report, job.output.page):
@@ -130,7 +130,7 @@ def _problem_faults(inputs: Inputs | None, job: Job) -> list[str]:
     return [] if inputs is None else faults(inputs.problem, inputs.frames, job.settings)
 
 
-class _Reading:
+class Reading:
     """Reads one thing after the other and collects what is wrong."""
 
     def __init__(self) -> None:

@@ -17,6 +17,7 @@ from facial_retarget_addon.core.shapes.clone import clone_shapes
 from facial_retarget_addon.core.shapes.combinations import combined, complete, find_correctives, taken_apart
 from facial_retarget_addon.core.shapes.counterparts import Features, feature_of, missing
 from facial_retarget_addon.core.shapes.names import arkit_name, arkit_whole
+from facial_retarget_addon.core.shapes.prepare import Preparation, prepare_shapes
 from facial_retarget_addon.core.shapes.resolve import resolve_shapes
 from facial_retarget_addon.core.shapes.shape_set import ShapeSet
 from facial_retarget_addon.core.shapes.sides import (
@@ -354,3 +355,32 @@ def test_a_correction_that_shows_at_no_point_teaches_nothing(problem: Problem, a
     np.testing.assert_array_equal(again.shapes["wiggle"], corrected["wiggle"])
     assert again.report["examples"] == []
     assert any("teach nothing: wiggle" in text for text in again.report["warnings"])
+
+
+# ---- preparing ----------------------------------------------------------------------------------
+
+
+def test_a_set_is_prepared_in_order() -> None:
+    shapes = some_shapes("browInnerUp_L", "browInnerUp_R", "AK_25_JawOpen", "mouthClosed", "smile", "x")
+    how = Preparation(drop=("x", "AK_25*"), arkit_wholes=True, split=("s*",), merge={"y": ("smile",)}, arkit_names=True)
+    with pytest.raises(RetargetError, match=r"no shape is called 's\*'"):
+        prepare_shapes(shapes, how, np.ones(7))
+    ready = prepare_shapes(shapes, replace(how, merge={}), np.ones(7))
+    assert ready.wanted == ("browInnerUp", "mouthClose", "smile_L", "smile_R")
+    # The jaw was dropped, but its corrective cannot go over without it.
+    assert ready.shapes.names == (*ready.wanted, "jawOpen")
+    assert [(one.name, one.needs) for one in ready.correctives] == [("mouthClose", ("jawOpen",))]
+    np.testing.assert_array_equal(ready.shapes["smile_L"], shapes["smile"])
+
+
+def test_halves_of_a_corrective_are_correctives() -> None:
+    found = find_correctives(["jawOpen", "mouthClose_L", "mouthClose_R"])
+    assert [(one.name, one.needs) for one in found] == [
+        ("mouthClose_L", ("jawOpen",)),
+        ("mouthClose_R", ("jawOpen",)),
+    ]
+
+
+def test_names_that_become_one_are_refused() -> None:
+    with pytest.raises(RetargetError, match="'eyeBlinkLeft' appears twice"):
+        prepare_shapes(some_shapes("eyeBlink_L", "eyeBlinkLeft"), Preparation(arkit_names=True))

@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from facial_retarget_addon.core.errors import RetargetError
 from facial_retarget_addon.core.shapes.shape_set import ShapeSet
 from facial_retarget_addon.files.base_mesh import read_base_mesh, write_base_mesh
+from facial_retarget_addon.files.clone_job import read_clone_job
 from facial_retarget_addon.files.frames import read_frames, write_frames
 from facial_retarget_addon.files.job import read_job
 from facial_retarget_addon.files.meshes import read_mesh, write_mesh
@@ -44,6 +45,23 @@ levels = 3
 level_gains = [1, 0.5]
 [output]
 frames = "out.npz"
+"""
+CLONE_JOB = b"""version = 1
+method = "motion_cloning"
+[source]
+neutral = "s.obj"
+points = "s.json"
+shapes = "s"
+[shapes]
+keep = ["mouth*"]
+split = ["jaw*"]
+feather = 0.5
+sides = ["_L", "_R"]
+merge.brow = ["a", "b"]
+[[targets]]
+neutral = "t.obj"
+points = "t.json"
+shapes = "t.npz"
 """
 ASCII_PLY = b"""ply
 format ascii 1.0
@@ -101,6 +119,7 @@ READERS: dict[str, Callable[[Path], object]] = {
     "table.json": read_any_shapes,
     "shapes.npz": read_any_shapes,
     "job.toml": read_job,
+    "clone.toml": read_clone_job,
 }
 WORDS = st.sampled_from(
     [
@@ -128,6 +147,8 @@ def sound(folder: Path, name: str) -> bytes:
     match name:
         case "job.toml":
             return JOB
+        case "clone.toml":
+            return CLONE_JOB
         case "ascii.ply":
             return ASCII_PLY
         case "small.npz":
@@ -182,7 +203,7 @@ def test_a_sound_file_is_sound(tmp_path, name):
     READERS[name](tmp_path / name)
 
 
-@pytest.mark.parametrize("name", ["points.json", "base.json", "table.json", "job.toml"])
+@pytest.mark.parametrize("name", ["points.json", "base.json", "table.json", "job.toml", "clone.toml"])
 def test_a_document_that_nests_too_deep(tmp_path, name):
-    survives(name, tmp_path / name, b"a = " * (name == "job.toml") + b"[" * 100_000)
+    survives(name, tmp_path / name, b"a = " * name.endswith(".toml") + b"[" * 100_000)
     survives(name, tmp_path / name, b'{"a":' * 100_000)

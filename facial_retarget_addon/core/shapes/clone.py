@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -46,12 +46,12 @@ class ClonedShapes:
     without_counterpart: dict[str, str]
 
     def only(self, names: Sequence[str]) -> ClonedShapes:
-        """These shapes alone, in this order; the report stays that of all."""
+        """These shapes alone, in this order; the report's other figures stay those of all."""
         row = {row["name"]: row for row in self.rows}
-        left = {name: why for name, why in self.without_counterpart.items() if name in names}
-        return replace(
-            self, shapes=self.shapes.subset(names), rows=[row[name] for name in names], without_counterpart=left
-        )
+        rows = [row[name] for name in names]
+        lost = {name: why for name, why in self.without_counterpart.items() if name in names}
+        report = {**self.report, "shapes": rows, "without_counterpart": lost}
+        return ClonedShapes(self.shapes.subset(names), rows, report, lost)
 
 
 def clone_shapes(

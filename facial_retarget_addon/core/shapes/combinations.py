@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from ..arrays import FloatArray
-from .names import arkit_name
+from .names import arkit_name, arkit_whole
 from .shape_set import ShapeSet
 
 ARKIT_CORRECTIVES: dict[str, tuple[str, ...]] = {"mouthClose": ("jawOpen",)}
@@ -21,7 +21,7 @@ class Corrective(NamedTuple):
 
 
 def find_correctives(names: Sequence[str], own: Mapping[str, Sequence[str]] | None = None) -> tuple[Corrective, ...]:
-    """The correctives among some shapes: ARKit's in any common spelling, and the artist's own.
+    """The correctives among some shapes: ARKit's in any common spelling, halves of them, and the artist's own.
 
     Parameters
     ----------
@@ -29,9 +29,10 @@ def find_correctives(names: Sequence[str], own: Mapping[str, Sequence[str]] | No
     """
     spelled = {known: name for name in reversed(names) if (known := arkit_name(name)) is not None}
     found: dict[str, tuple[str, ...]] = {}
-    for known, needs in ARKIT_CORRECTIVES.items():
-        if known in spelled:
-            found[spelled[known]] = tuple(spelled.get(need, need) for need in needs)
+    for name in names:
+        needs = ARKIT_CORRECTIVES.get(arkit_name(name) or arkit_whole(name) or "", ())
+        if needs:
+            found[name] = tuple(spelled.get(need, need) for need in needs)
     found |= {name: tuple(needs) for name, needs in (own or {}).items() if name in names}
     return tuple(Corrective(name, needs) for name, needs in found.items() if needs)
 

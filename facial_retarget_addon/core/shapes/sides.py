@@ -74,7 +74,9 @@ def left_share(mesh: TriMesh, points: FeaturePoints, feather: float = FEATHER) -
     return share
 
 
-def split(shapes: ShapeSet, share: FloatArray, endings: SideNames | None = None) -> ShapeSet:
+def split(
+    shapes: ShapeSet, share: FloatArray, endings: SideNames | None = None, cut: Sequence[str] | None = None
+) -> ShapeSet:
     """Shapes cut in left and right halves; the two add up to the whole exactly.
 
     Shapes whose name has a side already stay as they are.
@@ -83,6 +85,7 @@ def split(shapes: ShapeSet, share: FloatArray, endings: SideNames | None = None)
     ----------
     share : (V,) of `left_share`.
     endings : of the halves' names; as the set's own names have them if None.
+    cut : names of the shapes that are cut; all if None.
 
     Raises
     ------
@@ -94,7 +97,7 @@ def split(shapes: ShapeSet, share: FloatArray, endings: SideNames | None = None)
     mostly_left = (share >= 0.5)[:, None]
     larger = np.maximum(share, 1 - share).astype(np.float32)[:, None]
     for name, whole in zip(shapes.names, shapes.displacements, strict=True):
-        if has_side(name):
+        if has_side(name) or (cut is not None and name not in cut):
             names.append(name)
             moves.append(whole)
             continue

@@ -35,7 +35,7 @@ def moments(
 ) -> list[Moment]:
     """Pictures of the chosen frames (from 0) out of (F, Vs, 3) and (F, Vt, 3)."""
     source, target = (
-        Portrait(face.mesh, face.points, _upright(face), make_caster=problem.make_caster)
+        Portrait(face.mesh, face.points, upright(face), make_caster=problem.make_caster)
         for face in (problem.source, problem.target)
     )
     return [
@@ -91,7 +91,7 @@ class Portrait:
         return mark(self.picture(vertices), Camera.framing(self._frame, self._size).project(places))
 
 
-def _upright(face: Face) -> FloatArray:
+def upright(face: Face) -> FloatArray:
     """(3, 3) rows right, up, forward of a face: where its points look, Z up where that is along Y, else Y up."""
     mesh = face.mesh
     normals = face.points.positions(mesh.vertex_normals) if len(face.points) else np.array([[0.0, 0.0, 1.0]])

@@ -1,0 +1,183 @@
+"""A whole clone job: read everything, clone onto every target, write everything. For the command line and scripts."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ..core.arrays import FloatArray, Progress, no_progress, progress_part
+from ..core.checks import faults
+from ..core.errors import RetargetError
+from ..core.problem import Face, Problem
+from ..core.shapes.clone import ClonedShapes, clone_shapes
+from ..core.shapes.combinations import combined, complete
+from ..core.shapes.prepare import PreparedShapes, prepare_shapes
+from ..core.shapes.resolve import resolve_shapes
+from ..core.shapes.shape_set import ShapeSet
+from ..core.shapes.sides import left_share
+from .clone_job import CloneJob, TargetFiles, read_clone_job
+from .job import FaceFiles
+from .mesh_file import MeshFile
+from .meshes import read_mesh
+from .pages.clone_page import KeyPictures, clone_page, clone_sheet, key_pictures, sheet_rows
+from .pages.pictures import Image
+from .pages.report import report_json
+from .run import Reading
+from .shape_files import add_shapes, check_shapes_place, read_shapes
+from .whole import Aside, check_place, overwritten, written_whole
+
+
+@dataclass(frozen=True, eq=False)
+class _Target:
+    """A head as its files hold it."""
+
+    files: TargetFiles
+    mesh_file: MeshFile
+    face: Face
+    corrected: ShapeSet | None
+
+
+@dataclass(frozen=True, eq=False)
+class _Inputs:
+    """What a job's files hold."""
+
+    source: Face
+    prepared: PreparedShapes
+    targets: list[_Target]
+
+
+def run_clone_file(path: Path, progress: Progress = no_progress) -> list[dict[str, Any]]:
+    """Do the clone job of a file; see `run_clone_job`."""
+    return run_clone_job(read_clone_job(path), progress)
+
+
+def run_clone_job(job: CloneJob, progress: Progress = no_progress) -> list[dict[str, Any]]:
+    """Do a job: nothing is written before all of it is done, and everything appears together.
+
+    Parameters
+    ----------
+    progress : told how far the job is; may raise Cancelled, which leaves every file as it was.
+
+    Returns
+    -------
+    The report of each target, as it was written.
+
+    Raises
+    ------
+    RetargetError : for anything that is wrong with the job, its files or its heads; names all of it.
+    """
+    start = time.perf_counter()
+    progress(0.0, "Reading")
+    inputs = _read(job)
+    seconds = time.perf_counter() - start
+    pictures: list[Image] = []
+    reports = []
+    with written_whole() as aside:
+        for number, target in enumerate(inputs.targets):
+            part = progress_part(progress, (number + 0.1) / len(inputs.targets), (number + 1) / len(inputs.targets))
+            cloned = _clone(job, inputs, target, progress_part(part, 0.0, 0.5))
+            wanted = cloned.only(inputs.prepared.wanted)
+            report = _report(job, target, wanted, seconds)
+            add_shapes(aside, wanted.shapes, target.files.shapes, target.mesh_file)
+            if target.files.page is not None or target.files.sheet is not None:
+                if not pictures:
+                    seen = _seen(inputs.prepared.shapes, inputs.prepared)
+                    pictures = key_pictures(inputs.source, seen, progress_part(part, 0.5, 0.7))
+                seen = _seen(cloned.shapes, inputs.prepared)
+                names = inputs.prepared.wanted
+                keys = sheet_rows(names, pictures, target.face, seen, progress_part(part, 0.7, 1.0))
+                _add_pictures(aside, target.files, report, keys)
+            if target.files.report is not None:
+                aside.place(target.files.report).write_bytes(report_json(report))
+            reports.append(report)
+        progress(1.0, "Writing")
+    return reports
+
+
+def _clone(job: CloneJob, inputs: _Inputs, target: _Target, progress: Progress) -> ClonedShapes:
+    """The shapes on a target, those that correctives alone need among them."""
+    problem, prepared = Problem(inputs.source, target.face), inputs.prepared
+    try:
+        if target.corrected is None:
+            return clone_shapes(job.method, problem, job.settings, prepared.shapes, prepared.correctives, progress)
+        return resolve_shapes(
+            job.method, problem, job.settings, prepared.shapes, target.corrected, prepared.correctives, progress
+        )
+    except RetargetError as error:
+        raise RetargetError(f"{target.files.face.neutral.name}: {error}") from error
+
+
+def _seen(shapes: ShapeSet, prepared: PreparedShapes) -> FloatArray:
+    """(E, V, 3) the wanted shapes as they are looked at: correctives with what they need."""
+    whole = combined(shapes, complete(prepared.correctives, shapes.names))
+    seen: FloatArray = whole[shapes.rows(prepared.wanted)]
+    return seen
+
+
+def _report(job: CloneJob, target: _Target, cloned: ClonedShapes, reading: float) -> dict[str, Any]:
+    report = {
+        "source_file": job.source.neutral.name,
+        "target_file": target.files.face.neutral.name,
+        **cloned.report,
+    }
+    return report | {"seconds": {"read": reading, **cloned.report["seconds"]}}
+
+
+def _add_pictures(aside: Aside, files: TargetFiles, report: dict[str, Any], keys: list[KeyPictures]) -> None:
+    if files.page is not None:
+        aside.place(files.page).write_bytes(clone_page(report, keys))
+    if files.sheet is not None:
+        aside.place(files.sheet).write_bytes(clone_sheet(keys, report["shapes"]))
+
+
+def _read(job: CloneJob) -> _Inputs:
+    """What the files hold; RetargetError names all that is wrong with them and their places."""
+    reading = Reading()
+    reading.wrong += overwritten(job.inputs(), job.outputs())
+    source, prepared = _read_source(job, reading)
+    targets = [_read_target(files, reading) for files in job.targets]
+    whole = [target for target in targets if target is not None]
+    if source is not None and prepared is not None and not reading.wrong:
+        for target in whole:
+            wrong = faults(Problem(source, target.face), None, job.settings)
+            reading.wrong += [f"{target.files.face.neutral.name}: {fault}" for fault in wrong]
+    if reading.wrong or source is None or prepared is None:
+        raise RetargetError("; ".join(dict.fromkeys(reading.wrong)))
+    return _Inputs(source, prepared, whole)
+
+
+def _read_source(job: CloneJob, reading: Reading) -> tuple[Face | None, PreparedShapes | None]:
+    _, face = _read_face(job.source, reading)
+    if face is None:
+        return None, None
+    shapes = reading.attempt(read_shapes, job.shapes, face.mesh)
+    if shapes is None:
+        return face, None
+    share = None
+    if job.preparation.split:
+        share = reading.attempt(left_share, face.mesh, face.points, job.preparation.feather)
+    return face, reading.attempt(prepare_shapes, shapes, job.preparation, share)
+
+
+def _read_target(files: TargetFiles, reading: Reading) -> _Target | None:
+    mesh_file, face = _read_face(files.face, reading)
+    reading.attempt(check_shapes_place, files.shapes)
+    for place in (files.report, files.page, files.sheet):
+        if place is not None:
+            reading.attempt(check_place, place)
+    if mesh_file is None or face is None:
+        return None
+    corrected = None
+    if files.corrected is not None:
+        corrected = reading.attempt(read_shapes, files.corrected, face.mesh)
+    return _Target(files, mesh_file, face, corrected)
+
+
+def _read_face(files: FaceFiles, reading: Reading) -> tuple[MeshFile | None, Face | None]:
+    mesh_file = reading.attempt(read_mesh, files.neutral)
+    points, parts = reading.points(files, mesh_file), reading.parts(files, mesh_file)
+    if mesh_file is None or points is None or parts is None:
+        return mesh_file, None
+    return mesh_file, Face(mesh_file.mesh, points, named_parts=parts)

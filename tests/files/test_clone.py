@@ -1,0 +1,264 @@
+"""facial-retarget clone: the shapes of one head for one or many others, by a job or by options."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from facial_retarget_addon import demo
+from facial_retarget_addon.cli import main
+from facial_retarget_addon.core.errors import Cancelled, RetargetError
+from facial_retarget_addon.core.methods.settings import HierarchicalSettings
+from facial_retarget_addon.core.shapes.prepare import Preparation
+from facial_retarget_addon.core.shapes.shape_set import ShapeSet
+from facial_retarget_addon.core.shapes.sides import SideNames
+from facial_retarget_addon.files.clone_job import CloneJob, TargetFiles, read_clone_job, write_clone_job
+from facial_retarget_addon.files.clone_task import run_clone_job
+from facial_retarget_addon.files.job import FaceFiles
+from facial_retarget_addon.files.mesh_file import MeshFile
+from facial_retarget_addon.files.meshes import read_mesh, write_mesh
+from facial_retarget_addon.files.mpeg4_face import FapFaceFiles
+from facial_retarget_addon.files.pages.clone_page import worst_keys
+from facial_retarget_addon.files.pages.lettering import lettered
+from facial_retarget_addon.files.points import write_points
+from facial_retarget_addon.files.shape_files import add_shapes, read_shapes
+from facial_retarget_addon.files.shapes_task import ShapesTask, run_shapes_task
+from facial_retarget_addon.files.whole import written_whole
+
+from .conftest import FaceOnDisk
+
+NAMES = ("browInnerUp", "jawOpen", "mouthClose", "mouthSmileLeft")
+
+
+@pytest.fixture(scope="module")
+def heads(face: FaceOnDisk, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with a donor, four of its shapes, and two heads."""
+    folder = tmp_path_factory.mktemp("heads")
+    run_shapes_task(ShapesTask(FapFaceFiles(face.neutral, face.points), ("arkit",), folder / "arkit.npz"))
+    mesh_file = read_mesh(face.neutral)
+    shapes = read_shapes(folder / "arkit.npz", mesh_file.mesh).subset(NAMES)
+    (folder / "arkit.npz").unlink()
+    with written_whole() as aside:
+        add_shapes(aside, shapes, folder / "shapes", mesh_file)
+    for name, seed in (("one", 3), ("two", 4)):
+        head = demo.warped_actor(np.random.default_rng(seed), vertices=3000)
+        write_mesh(MeshFile(head.face.mesh, head.counts, head.corners), folder / f"{name}.obj")
+        write_points(head.face.points, folder / f"{name}.json")
+    write_mesh(mesh_file, folder / "donor.obj")
+    write_points(face.actor.face.points, folder / "donor.json")
+    return folder
+
+
+@pytest.fixture
+def job(heads: Path, tmp_path: Path) -> CloneJob:
+    def files(name: str) -> FaceFiles:
+        return FaceFiles(heads / f"{name}.obj", heads / f"{name}.json")
+
+    return CloneJob(files("donor"), heads / "shapes", (TargetFiles(files("one"), tmp_path / "one.npz"),))
+
+
+# ---- the job file -------------------------------------------------------------------------------
+
+FULL = Preparation(
+    keep=("mouth*", "jaw*", "brow*"),
+    drop=("*Right",),
+    arkit_wholes=True,
+    merge={"smile now": ("mouthSmileLeft", "mouthSmileRight")},
+    split=("jawOpen",),
+    feather=0.5,
+    sides=SideNames(".L", ".R"),
+    arkit_names=True,
+    correctives={"mouthClose": ()},
+)
+
+
+def test_a_job_comes_back_as_it_was_written(job: CloneJob, tmp_path: Path) -> None:
+    whole = replace(
+        job,
+        targets=(
+            replace(job.targets[0], corrected=tmp_path / "corrected", report=tmp_path / "r.json"),
+            replace(job.targets[0], shapes=tmp_path / "two", page=tmp_path / "p.html", sheet=tmp_path / "s.png"),
+        ),
+        preparation=FULL,
+        method="hierarchical",
+        settings=HierarchicalSettings(levels=2, level_gains=(1.0, 0.5)),
+    )
+    path = tmp_path / "clone.toml"
+    for one in (job, whole):
+        write_clone_job(one, path)
+        assert replace(read_clone_job(path), path=None) == one
+    assert 'shapes = "two"' in path.read_text()
+
+
+def test_a_short_job_is_enough(tmp_path: Path) -> None:
+    (tmp_path / "clone.toml").write_text(
+        'version = 1\n[source]\nneutral = "a.obj"\npoints = "a.json"\nshapes = "a"\n'
+        '[[targets]]\nneutral = "b.obj"\npoints = "b.json"\nshapes = "b.json.npz"\n'
+    )
+    read = read_clone_job(tmp_path / "clone.toml")
+    assert (read.method, read.preparation) == ("motion_cloning", Preparation())
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("version = 2", "version = 2, expected 1"),
+        ('version = 1\nmethod = "magic"', "method = 'magic', expected one of"),
+        ("version = 1", "targets is missing, expected a list"),
+        ("version = 1\ntargets = []", "expected at least one"),
+        ("version = 1\n[[targets]]\ncolour = 1", r"\[\[targets\]\] 1 colour is unknown"),
+        ("version = 1\n[shapes]\nkeep = [1]", r"\[shapes\] keep = \[1\], expected a list of texts"),
+        ('version = 1\n[shapes]\nsides = ["_L"]', "expected the left and the right half's ending"),
+        ('version = 1\n[shapes]\nfeather = "wide"', "feather = 'wide', expected a number"),
+        ("version = 1\n[shapes]\narkit_names = 1", "arkit_names = 1, expected true or false"),
+        ('version = 1\n[shapes.merge]\na = "b"', r"\[shapes.merge\] a = 'b', expected a list"),
+        ("version = 1\n[settings]\nlevels = 3", "has no setting 'levels'"),
+    ],
+)
+def test_what_is_wrong_with_a_job_is_said(text: str, said: str, tmp_path: Path) -> None:
+    (tmp_path / "clone.toml").write_text(text)
+    with pytest.raises(RetargetError, match=said):
+        read_clone_job(tmp_path / "clone.toml")
+
+
+# ---- doing it -----------------------------------------------------------------------------------
+
+
+def clone(heads: Path, *arguments: object) -> int:
+    source = [str(heads / name) for name in ("donor.obj", "donor.json", "shapes")]
+    return main(["clone", "--quiet", "--source", *source, *map(str, arguments)])
+
+
+def target(heads: Path, name: str, out: Path) -> list[object]:
+    return ["--target", heads / f"{name}.obj", heads / f"{name}.json", out]
+
+
+def test_one_command_gives_a_set_to_many_heads(heads: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    one, two = tmp_path / "one", tmp_path / "two.json"
+    assert clone(heads, *target(heads, "one", one), *target(heads, "two", two), "--page") == 0
+    assert {path.name for path in one.iterdir()} == {f"{name}.obj" for name in NAMES}
+    mesh_file = read_mesh(heads / "one.obj")
+    shapes = read_shapes(one, mesh_file.mesh)
+    assert shapes.largest().min() > 0.01 * mesh_file.mesh.size
+    assert read_mesh(one / "jawOpen.obj").counts.tolist() == mesh_file.counts.tolist()
+    report = json.loads((tmp_path / "one.report.json").read_text())
+    assert [row["name"] for row in report["shapes"]] == sorted(NAMES)
+    assert (report["source_file"], report["target_file"]) == ("donor.obj", "one.obj")
+    table = json.loads(two.read_text())["shapes"]
+    assert {name: table[name]["key"] for name in table} == {name: name for name in sorted(NAMES)}
+    page = (tmp_path / "two.html").read_text()
+    assert page.count("data:image/png;base64,") == 3 * len(NAMES)
+    assert "mouthClose with jawOpen" in page
+    assert (tmp_path / "two.png").read_bytes().startswith(b"\x89PNG")
+    assert f"{one}: 4 shapes" in capsys.readouterr().out
+
+
+def test_a_job_chooses_splits_and_learns(job: CloneJob, tmp_path: Path) -> None:
+    run_clone_job(job)
+    mesh = read_mesh(job.targets[0].face.neutral).mesh
+    first = read_shapes(tmp_path / "one.npz", mesh)
+    corrected = ShapeSet(("mouthSmileLeft",), 1.5 * first["mouthSmileLeft"][None])
+    with written_whole() as aside:
+        add_shapes(aside, corrected, tmp_path / "corrected.json", read_mesh(job.targets[0].face.neutral))
+    how = Preparation(keep=("mouth*", "brow*"), split=("brow*",), sides=SideNames("Left", "Right"))
+    learning = replace(job.targets[0], shapes=tmp_path / "again.npz", corrected=tmp_path / "corrected.json")
+    (report,) = run_clone_job(replace(job, preparation=how, targets=(learning,)))
+    again = read_shapes(tmp_path / "again.npz", mesh)
+    # The jaw serves mouthClose and was not asked for.
+    assert again.names == ("browInnerUpLeft", "browInnerUpRight", "mouthClose", "mouthSmileLeft")
+    np.testing.assert_allclose(again["mouthSmileLeft"], corrected["mouthSmileLeft"], atol=1e-6 * mesh.size)
+    assert [figure["name"] for figure in report["examples"]] == ["mouthSmileLeft"]
+    halves = again["browInnerUpLeft"] + again["browInnerUpRight"]
+    brow = first["browInnerUp"]
+    assert np.linalg.norm(halves - brow) < 0.1 * np.linalg.norm(brow)
+    assert [row["name"] for row in report["shapes"]] == list(again.names)
+
+
+def test_a_table_is_a_source_too(job: CloneJob, heads: Path, tmp_path: Path) -> None:
+    donor = read_mesh(job.source.neutral)
+    with written_whole() as aside:
+        add_shapes(aside, read_shapes(heads / "shapes", donor.mesh), tmp_path / "table.json", donor)
+    run_clone_job(job)
+    run_clone_job(
+        replace(
+            job,
+            shapes=tmp_path / "table.json",
+            targets=(replace(job.targets[0], shapes=tmp_path / "by_table.npz"),),
+        )
+    )
+    assert (tmp_path / "one.npz").read_bytes() == (tmp_path / "by_table.npz").read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ([], "clone expects a job file, or --source and at least one --target"),
+        (["--method", "magic"], "--method magic is unknown"),
+        (["clone.toml", "--page"], "cannot be read"),
+    ],
+)
+def test_options_that_do_not_fit_are_refused(
+    arguments: list[str], said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["clone", *arguments]) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_a_job_and_options_do_not_go_together(
+    job: CloneJob, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write_clone_job(job, tmp_path / "clone.toml")
+    assert main(["clone", str(tmp_path / "clone.toml"), "--keep", "jaw*"]) == 2
+    assert "but --keep came with" in capsys.readouterr().err
+    assert main(["clone", str(tmp_path / "clone.toml"), "--quiet"]) == 0
+    assert read_shapes(tmp_path / "one.npz", read_mesh(job.targets[0].face.neutral).mesh).names == NAMES
+
+
+def test_every_fault_of_the_files_is_said_and_nothing_is_written(
+    heads: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    bad = [*target(heads, "one", tmp_path / "one.npz"), "--target", heads / "gone.obj", heads / "two.json", "no/x.npz"]
+    assert clone(heads, *bad, "--keep", "ear*") == 2
+    said = capsys.readouterr().err
+    for part in ("gone.obj cannot be read", "there is no folder no", "no shape is called 'ear*'"):
+        assert part in said
+    assert said.count("\n") == 1
+    assert not list(tmp_path.iterdir())
+
+
+def test_an_input_is_never_replaced(heads: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert clone(heads, *target(heads, "one", heads / "shapes")) == 2
+    assert "are one file" in capsys.readouterr().err
+
+
+def test_stopping_leaves_everything_as_it_was(job: CloneJob, tmp_path: Path) -> None:
+    def stop(share: float, what: str) -> None:
+        if share > 0.5:
+            raise Cancelled
+
+    with pytest.raises(Cancelled):
+        run_clone_job(job, stop)
+    assert not list(tmp_path.iterdir())
+
+
+# ---- pictures -----------------------------------------------------------------------------------
+
+
+def test_the_worst_keys_are_those_with_most_defects() -> None:
+    rows = [{"name": f"k{n}", "torn_edges": n % 4, "flipped_triangles": n} for n in range(6)]
+    assert worst_keys(rows) == ["k3", "k5", "k2"]
+    assert worst_keys([{"name": "a", "torn_edges": 0, "flipped_triangles": 0}, {"name": "b", "corrected": True}]) == []
+
+
+def test_letters_are_written_where_they_fit() -> None:
+    white = np.full((20, 30, 3), 255, np.uint8)
+    written = lettered(white, "i1", colour=(0, 0, 0))
+    dark = (written == 0).all(axis=2)
+    assert dark[2:7, 2:5].tolist() == [[a == "#" for a in row] for row in ("###", ".#.", ".#.", ".#.", "###")]
+    assert not dark[:, 9:].any()
+    assert (white == 255).all()
+    assert (lettered(white, "abcdefghijklmn", scale=2) != 255).any()
