@@ -15,7 +15,7 @@ from scipy.sparse.csgraph import connected_components
 
 from .arrays import BoolArray, FloatArray, IntArray
 from .errors import RetargetError
-from .methods.settings import HierarchicalSettings, Settings
+from .methods.settings import LevelSettings, Settings
 from .mpeg4.regions import OWN_PARTS
 from .parts.kinds import NAMED_KINDS
 from .points import FeaturePoints, common_names
@@ -56,9 +56,9 @@ def faults(problem: Problem, frames: FloatArray | None, settings: Settings) -> l
             *_stray_points(side, face),
             *_named_part_faults(side, face),
         ]
-    found += _missing_points(problem, LEAST_POINTS if isinstance(settings, HierarchicalSettings) else FEWEST_POINTS)
+    found += _missing_points(problem, LEAST_POINTS if isinstance(settings, LevelSettings) else FEWEST_POINTS)
     found += _example_faults(problem)
-    if isinstance(settings, HierarchicalSettings):
+    if isinstance(settings, LevelSettings):
         found += _level_faults(problem, settings)
     if frames is not None:
         found += _frame_faults(problem.source, frames)
@@ -292,7 +292,7 @@ def _same_examples(face: Face) -> list[tuple[str, str]]:
 
 
 # ---- levels and frames --------------------------------------------------------------------------
-def _level_faults(problem: Problem, settings: HierarchicalSettings) -> list[str]:
+def _level_faults(problem: Problem, settings: LevelSettings) -> list[str]:
     """A triangulation of n points has about n * 4**level vertices after that many subdivisions."""
     if problem.base is not None:
         points = len({name for triangle in problem.base for name in triangle})

@@ -53,8 +53,8 @@ def principal_frames(mesh: TriMesh, estimator: str = "least_squares") -> Princip
     basis = np.stack([across, along], axis=1)
     here, there, weights = _directed_edges(mesh)
     edges = mesh.vertices[there] - mesh.vertices[here]
-    length = np.maximum(np.linalg.norm(edges, axis=1), 1e-300)
-    bend = 2 * np.einsum("ei,ei->e", normals[here], edges) / length**2
+    squared = np.maximum(np.square(edges).sum(axis=1), 1e-300)
+    bend = 2 * np.einsum("ei,ei->e", normals[here], edges) / squared
     flat = np.einsum("eki,ei->ek", basis[here], edges)
     flat /= np.maximum(np.linalg.norm(flat, axis=1, keepdims=True), 1e-300)
     if estimator == "taubin":

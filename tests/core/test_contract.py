@@ -17,13 +17,18 @@ from facial_retarget_addon.core.points import FeaturePoints
 from facial_retarget_addon.core.problem import Face, Problem
 from facial_retarget_addon.core.retarget import retarget
 
-RESOLUTION = {"hierarchical": 0.03, "feature_points": 0.35, "motion_cloning": 0.001}
+RESOLUTION = {"hierarchical": 0.03, "wavelet": 0.03, "feature_points": 0.35, "motion_cloning": 0.001}
 """Method -> relative error of a face onto itself that it states as its own; points do not carry what lies between."""
 
-QUICK: dict[str, dict[str, object]] = {"hierarchical": {"levels": 2}, "feature_points": {}, "motion_cloning": {}}
+QUICK: dict[str, dict[str, object]] = {
+    "hierarchical": {"levels": 2},
+    "wavelet": {"levels": 2},
+    "feature_points": {},
+    "motion_cloning": {},
+}
 """Method -> settings that are quick to fit."""
 
-STEERED = ("hierarchical", "motion_cloning")
+STEERED = ("hierarchical", "wavelet", "motion_cloning")
 """Methods that examples steer; the others say that they do not use them."""
 
 VARIANTS = [
@@ -31,6 +36,10 @@ VARIANTS = [
     ("hierarchical", {"levels": 2, "base_gain": 0.8, "level_gains": (0.5,), "detail_scale": 0.3}),
     ("hierarchical", {"levels": 2, "frames": "global", "read": "pierce"}),
     ("hierarchical", {"levels": 2, "variant": "paper"}),
+    ("wavelet", {"levels": 3}),
+    ("wavelet", {"levels": 2, "base_gain": 0.8, "level_gains": (0.5,), "detail_scale": 0.3, "source_mesh": "pierced"}),
+    ("wavelet", {"levels": 2, "mode": "scaled", "lifting": "integral"}),
+    ("wavelet", {"levels": 2, "mode": "paper", "disc": 0}),
     ("feature_points", {}),
     ("feature_points", {"variant": "paper"}),
     ("feature_points", {"motion": "faps"}),
@@ -255,5 +264,5 @@ def test_frames_of_another_vertex_count_are_refused(method: str, plain: Problem,
 
 
 def test_unknown_methods_are_named(plain: Problem) -> None:
-    with pytest.raises(RetargetError, match=r"'magic' is unknown, expected one of hierarchical, feature_points"):
+    with pytest.raises(RetargetError, match=r"'magic' is unknown, expected one of hierarchical, wavelet, feature_points"):
         fit("magic", plain, SETTINGS["hierarchical"]())

@@ -3,11 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import scipy.sparse as sp
 
 from ..arrays import FloatArray
 from .subdivision import Level
+
+
+class Strengths(NamedTuple):
+    """Strengths of the base and of each level, and of what is finer than the last one."""
+
+    gains: tuple[float, ...]
+    detail: float
+
+    @property
+    def plain(self) -> bool:
+        """Whether all of them are 1."""
+        return self.detail == 1.0 and all(gain == 1.0 for gain in self.gains)
+
+    def up_to(self, count: int) -> Strengths:
+        """The same for the base and the levels below `count`, 0 for the rest."""
+        return Strengths(self.gains[:count] + (0.0,) * (len(self.gains) - count), 0.0)
 
 
 def scale_levels(

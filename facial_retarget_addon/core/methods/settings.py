@@ -17,25 +17,10 @@ def _setting(default: Any, help: str, **limits: Any) -> Any:
 
 
 @dataclass(frozen=True)
-class HierarchicalSettings:
-    """Settings of the hierarchical method (Na and Jung 2004)."""
+class LevelSettings:
+    """What the methods that work level by level have in common."""
 
-    levels: int = _setting(4, "Levels of the normal mesh: each one holds four times the triangles", low=1, high=6)
-    variant: str = _setting(
-        "default",
-        "default: dense motion with example residuals; paper: the published formulas",
-        choices=("default", "paper"),
-    )
-    read: str = _setting(
-        "track",
-        "track: the source keeps its topology and its points are followed; pierce: every frame is pierced anew",
-        choices=("track", "pierce"),
-    )
-    frames: str = _setting(
-        "local",
-        "How motion turns: with the surface around each place, or with the heads as a whole",
-        choices=("local", "global"),
-    )
+    levels: int = _setting(4, "Levels over the base mesh: each one holds four times the triangles", low=1, high=6)
     base_points: int = _setting(
         105,
         "Base points wanted: what the given ones lack is added between them, matched by the correspondence",
@@ -56,6 +41,51 @@ class HierarchicalSettings:
         if level == 0:
             return self.base_gain
         return self.level_gains[level - 1] if level <= len(self.level_gains) else 1.0
+
+
+@dataclass(frozen=True)
+class HierarchicalSettings(LevelSettings):
+    """Settings of the hierarchical method (Na and Jung 2004)."""
+
+    variant: str = _setting(
+        "default",
+        "default: dense motion with example residuals; paper: the published formulas",
+        choices=("default", "paper"),
+    )
+    read: str = _setting(
+        "track",
+        "track: the source keeps its topology and its points are followed; pierce: every frame is pierced anew",
+        choices=("track", "pierce"),
+    )
+    frames: str = _setting(
+        "local",
+        "How motion turns: with the surface around each place, or with the heads as a whole",
+        choices=("local", "global"),
+    )
+
+
+@dataclass(frozen=True)
+class WaveletSettings(LevelSettings):
+    """Settings of the wavelet method (Min and Jung 2005)."""
+
+    mode: str = _setting(
+        "framed",
+        "framed: details scale and turn with the target's surface; scaled: they scale only; paper: as published, "
+        "pasted as they are",
+        choices=("framed", "scaled", "paper"),
+    )
+    source_mesh: str = _setting(
+        "matched",
+        "Where the source is read: matched: at the counterparts of the target's fine vertices; pierced: on a fine mesh "
+        "made for the source by itself",
+        choices=("matched", "pierced"),
+    )
+    lifting: str = _setting(
+        "disc",
+        "disc: wavelets nearly orthogonal to the coarser levels; integral: wavelets without a mean, for comparison",
+        choices=("disc", "integral"),
+    )
+    disc: int = _setting(2, "Edges around a new vertex over which its wavelet is made orthogonal", low=0, high=3)
 
 
 @dataclass(frozen=True)
@@ -91,11 +121,12 @@ class MotionCloningSettings:
     example_strength: float = _setting(1.0, "How far the examples steer the result", low=0.0, high=1.0)
 
 
-Settings = HierarchicalSettings | FeaturePointSettings | MotionCloningSettings
+Settings = HierarchicalSettings | WaveletSettings | FeaturePointSettings | MotionCloningSettings
 """Any method's settings."""
 
-SETTINGS: dict[str, type[HierarchicalSettings] | type[FeaturePointSettings] | type[MotionCloningSettings]] = {
+SETTINGS: dict[str, type[Settings]] = {
     "hierarchical": HierarchicalSettings,
+    "wavelet": WaveletSettings,
     "feature_points": FeaturePointSettings,
     "motion_cloning": MotionCloningSettings,
 }

@@ -98,9 +98,9 @@ class Wavelets:
             values = lift.synthesise(values, coefficients)
         return values
 
-    def astype(self, dtype: type[np.floating]) -> Wavelets:  # type: ignore[type-arg]
-        """The same in another precision."""
-        return Wavelets([Lift(lift.predict.astype(dtype), lift.update.astype(dtype)) for lift in self.lifts])
+    def single(self) -> Wavelets:
+        """The same in single precision, for many frames."""
+        return Wavelets([Lift(lift.predict.astype(np.float32), lift.update.astype(np.float32)) for lift in self.lifts])
 
 
 def wavelets(faces: IntArray, vertex_count: int, steps: Sequence[Level], disc: int = DISC) -> Wavelets:

@@ -1,0 +1,142 @@
+"""A fitted pair of faces whose motion is made of levels: what the multiresolution methods hand back."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .arrays import FloatArray, IntArray
+from .binding import apply_matrix
+from .carry import Motion
+from .errors import RetargetError
+from .levels.level_gains import Strengths
+from .pair import Pair
+from .parts.carried_parts import CarriedParts
+from .parts.report import still_components
+from .steering.learned import Example, Steering, learn
+
+
+class LevelMotion(NamedTuple):
+    """What one level adds to the target's motion: displacements (F, Vt, 3)."""
+
+    name: str
+    displacements: FloatArray
+
+
+class LevelRetargeter:
+    """A fitted pair of faces.
+
+    Parameters
+    ----------
+    pair : the two faces.
+    make_motion : gives the motion of the target's vertices, before the examples, for strengths of its levels.
+    strengths : the settings'.
+    make_fine_motion : gives the motion of the target's finest level, made when it is first asked for.
+    parts : what follows the skin, and the eyeballs; None for nothing.
+    """
+
+    def __init__(
+        self,
+        pair: Pair,
+        make_motion: Callable[[Strengths], Motion],
+        strengths: Strengths,
+        make_fine_motion: Callable[[], Motion],
+        parts: CarriedParts | None = None,
+    ) -> None:
+        self._pair, self._make_motion, self._strengths = pair, make_motion, strengths
+        self._make_fine_motion, self._parts = make_fine_motion, parts
+        self.plain = make_motion(strengths)
+        self._steering: Steering | None = None
+        self._figures: list[dict[str, Any]] = []
+        self._source = pair.source.vertices.astype(np.float32)
+        self._target = pair.target.vertices.astype(np.float32)
+
+    def learn(self, examples: list[Example], trust: float) -> None:
+        """Let examples steer the motion, from 0 (not at all) to 1."""
+        self._steering = learn(self._pair.steering_base, examples, self.plain, trust)
+        self._figures = [] if self._steering is None else self._steering.figures
+
+    def measure(self, examples: list[Example]) -> None:
+        """Report how well the motion meets examples that it already comes from."""
+        base = self._pair.steering_base
+        for example in examples:
+            moved = self.plain((self._pair.source.vertices + example.source).astype(np.float32)[None])[0]
+            self._figures.append({"name": example.name, "fit": base.error(moved, example.target)})
+
+    @cached_property
+    def report(self) -> Mapping[str, Any]:
+        """Figures of the fit, as plain data."""
+        report = self._pair.report()
+        moves = self._pair.correspondence.face >= 0
+        rows: list[dict[str, Any]] = []
+        if self._parts is not None:
+            moves |= self._parts.moves
+            rows = self._parts.rows
+        still, named = still_components(self._pair.target, moves)
+        return {
+            **report,
+            "parts": rows,
+            "still_components": still,
+            "examples": self._figures,
+            "warnings": report["warnings"] + named,
+        }
+
+    @property
+    def counterpart(self) -> IntArray:
+        """(Vt,) nearest source vertex of each target vertex's counterpart, -1 for none."""
+        return self._pair.counterpart
+
+    def frames(self, source: FloatArray) -> FloatArray:
+        """Target positions (F, Vt, 3) float32 of source frames (F, Vs, 3)."""
+        frames = self._checked(source)
+        moved = self._with_parts(self._steered(frames, self.plain(frames)), frames)
+        moved += self._target
+        return moved
+
+    def detail(self, source: FloatArray) -> tuple[FloatArray, IntArray]:
+        """The finest mesh of source frames (F, Vs, 3): positions (F, N, 3) float32, faces (M, 3)."""
+        frames, finest = self._checked(source), self._pair.finest
+        fine = self._fine_motion(frames)
+        if self._steering is not None:
+            carried = self.plain(frames)
+            fine += apply_matrix(self._pair.fine_places.astype(np.float32), self._steered(frames, carried) - carried)
+        fine += finest.positions.astype(np.float32)
+        return fine, finest.faces
+
+    def levels(self, source: FloatArray) -> list[LevelMotion]:
+        """What the base, each level, the detail and the examples add to the motion of source frames (F, Vs, 3).
+
+        They add up to what `frames` returns, minus the target's neutral.
+        """
+        frames = self._checked(source)
+        names = ["base", *(f"level {k}" for k in range(1, len(self._strengths.gains))), "detail"]
+        wholes = [self._with_parts(motion(frames), frames) for motion in self._up_to_each_level]
+        if self._steering is not None:
+            names.append("examples")
+            wholes.append(self._with_parts(self._steered(frames, self.plain(frames)), frames))
+        before = [np.zeros_like(wholes[0]), *wholes[:-1]]
+        return [LevelMotion(name, now - then) for name, now, then in zip(names, wholes, before, strict=True)]
+
+    @cached_property
+    def _up_to_each_level(self) -> list[Motion]:
+        """Motion of the base alone, of the base and level 1, and so on; at last with the detail."""
+        counts = range(1, len(self._strengths.gains) + 1)
+        return [*(self._make_motion(self._strengths.up_to(count)) for count in counts), self.plain]
+
+    @cached_property
+    def _fine_motion(self) -> Motion:
+        return self._make_fine_motion()
+
+    def _steered(self, frames: FloatArray, carried: FloatArray) -> FloatArray:
+        return carried if self._steering is None else self._steering.steer(carried, frames)
+
+    def _with_parts(self, moved: FloatArray, frames: FloatArray) -> FloatArray:
+        return moved if self._parts is None else self._parts.add_to(moved, frames)
+
+    def _checked(self, source: FloatArray) -> FloatArray:
+        if source.ndim != 3 or source.shape[1:] != self._source.shape:
+            raise RetargetError(f"source frames have shape {source.shape}, expected (F, {len(self._source)}, 3)")
+        return np.asarray(source, np.float32)
