@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..arrays import FloatArray, Progress, no_progress
+from ..arrays import Progress, no_progress
 from ..carry import BlendedMotion, Motion, PiercedMotion
 from ..level_retargeter import LevelRetargeter
 from ..levels.level_gains import Strengths, scale_fine, scale_levels
@@ -17,7 +17,7 @@ from ..pair import Pair, prepare_pair
 from ..paper_motion import PaperMotion
 from ..parts.carried_parts import carried_parts
 from ..problem import Problem
-from ..steering.learned import Example, learn
+from ..steering.learned import Example
 from ..steering.rbf import MultiquadricMaps, fit_multiquadrics
 from .settings import HierarchicalSettings
 

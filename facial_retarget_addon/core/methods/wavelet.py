@@ -1,9 +1,9 @@
 """Wavelet retargeting (Min and Jung 2005), on a base mesh spanned by feature points.
 
-Both faces become meshes of the same subdivision connectivity. The source's displacement splits into that of
-the base and the differences of the wavelet coefficients; the base's goes to the target through the local frames
-of the two base meshes, the coefficients' level by level. `mode` says what becomes of the details: `framed`
-turns and scales them with the target's surface, `paper` pastes them as published.
+Both faces become meshes of the same subdivision connectivity, unless they are such meshes already. The source's
+displacement splits into that of the base and the differences of the wavelet coefficients; the base's goes to the
+target through the local frames of the two base meshes, the coefficients' level by level. `mode` says what becomes of
+the details: `framed` turns and scales them with the target's surface, `paper` pastes them as published.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from ..arrays import FloatArray, Progress, no_progress
+from ..arrays import FloatArray, Progress, no_progress, progress_part
 from ..carry import LinearMotion, Motion
 from ..curvature import frame_rotations
 from ..level_retargeter import LevelRetargeter
@@ -27,6 +27,7 @@ from ..points import place_matrix
 from ..problem import Problem
 from ..rigid import Similarity, closest_rotations
 from ..steering.residuals import spread_matrix
+from ..subdivided_pair import subdivided_pair
 from ..wavelets.lifting import Wavelets, integral_wavelets, wavelets
 from ..wavelets.motion import RidingMotion, WaveletMotion
 from .settings import WaveletSettings
@@ -60,12 +61,9 @@ def fit(problem: Problem, settings: WaveletSettings, progress: Progress = no_pro
     ----------
     Min and Jung 2005.
     """
-    pair = prepare_pair(
-        problem,
-        settings.levels,
-        settings.base_points,
-        lambda share, what: progress(0.8 * share, what),
-        butterfly,
+    preparing = progress_part(progress, 0.0, 0.8)
+    pair = subdivided_pair(problem, settings.levels, butterfly) or prepare_pair(
+        problem, settings.levels, settings.base_points, preparing, butterfly
     )
     examples = pair.steering_base.examples(problem)
     progress(0.8, "making the wavelets")
@@ -135,8 +133,7 @@ def _wavelets(pair: Pair, settings: WaveletSettings) -> Wavelets:
 def _frames(pair: Pair, bank: Wavelets, read: sp.csr_matrix, paper: bool) -> Frames:
     """Frames of the two base meshes, which are what analysis leaves of the fine ones."""
     source, target = (
-        TriMesh(bank.analyse(fine)[0], pair.base.faces)
-        for fine in (read @ pair.source.vertices, pair.finest.positions)
+        TriMesh(bank.analyse(fine)[0], pair.base.faces) for fine in (read @ pair.source.vertices, pair.finest.positions)
     )
     scale = float(np.sqrt(target.area / source.area))
     if paper:
