@@ -12,7 +12,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from facial_retarget_addon.core.errors import RetargetError
-from facial_retarget_addon.core.methods.settings import HierarchicalSettings
+from facial_retarget_addon.core.methods.settings import SETTINGS, HierarchicalSettings
 from facial_retarget_addon.files.job import ExampleFiles, FaceFiles, Job, OutputFiles, read_job, write_job
 
 MINIMAL = """
@@ -179,9 +179,10 @@ def test_the_example_in_the_documentation_is_a_job(tmp_path):
     assert job.base == tmp_path / "base.json"
 
 
-def test_the_documentation_has_every_setting_with_its_default_and_help():
-    text = DOCUMENT.read_text(encoding="utf-8").split("## Settings")[1]
-    for field in fields(HierarchicalSettings):
+@pytest.mark.parametrize("method", ["hierarchical", "wavelet"])
+def test_the_documentation_has_every_setting_with_its_default_and_help(method):
+    text = DOCUMENT.read_text(encoding="utf-8").split(f"## Settings of `{method}`")[1]
+    for field in fields(SETTINGS[method]):
         default = json.dumps(list(field.default) if isinstance(field.default, tuple) else field.default)
         row = next(line for line in text.splitlines() if line.startswith(f"| `{field.name}` |"))
         assert f"| `{default}` |" in row
