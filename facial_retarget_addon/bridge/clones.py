@@ -150,7 +150,7 @@ def _copy_motion(thing: Object, origin: Mapping[str, str], donor: Donor, face: O
         if copying.drivers:
             copy_drivers(owner, thing, own, donor.things, face)
         if copying.animation:
-            unable += copy_animation(owner, thing, own)
+            unable += copy_animation(owner, thing, own, face)
     return unable
 
 

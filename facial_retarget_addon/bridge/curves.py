@@ -13,14 +13,15 @@ from ..core.arrays import FloatArray
 LINEAR = 1  # a keyframe's interpolation, as the number that foreach_set wants
 
 
-def ensure_curves(animated: ID, name: str) -> ActionChannelbag:
-    """Where the curves of something lie: in the action it has, or in a new one of this name.
+def ensure_curves(animated: ID, name: str, shared: Action | None = None) -> ActionChannelbag:
+    """Where the curves of something lie: in the action it has, in a slot of `shared`, or in a new action of this name.
 
     Slots and channelbags exist from Blender 4.4; `Action.fcurves` is gone in 5.0.
     """
     animation = animated.animation_data or animated.animation_data_create()
     if animation.action is None:
-        animation.action = bpy.data.actions.new(name)
+        animation.action = shared or bpy.data.actions.new(name)
+        animation.action_slot = None  # Blender may have chosen the slot of another one
     action = animation.action
     if animation.action_slot is None:
         animation.action_slot = action.slots.new(id_type=animated.id_type, name=animated.name)

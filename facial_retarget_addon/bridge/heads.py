@@ -72,6 +72,10 @@ class Head:
         Parameters
         ----------
         unmasked : vertex groups that shall not mask; see `masked_displacement`.
+
+        Raises
+        ------
+        RetargetError : for a shape key with NaN.
         """
         moves = np.zeros((len(names), self.starts[-1], 3), np.float32)
         for thing, own, matrix in self.slices():
@@ -79,6 +83,8 @@ class Head:
                 key = find_key(thing, name)
                 if key is not None:
                     moves[row, own] = masked_displacement(thing, key, unmasked) @ matrix.T
+                    if not np.isfinite(moves[row, own]).all():
+                        raise RetargetError(f"shape key {name!r} of object {thing.name!r} has vertices that are NaN")
         return moves
 
 
@@ -124,9 +130,10 @@ def head_parts(face: Object) -> list[Object]:
     """
     things = [part.thing for part in face.facial_retarget.parts if part.thing is not None and part.thing.users_scene]
     for thing in things:
-        if thing == face or things.count(thing) > 1:
-            what = "is listed as a part of itself" if thing == face else "is listed twice as a part"
-            raise RetargetError(f"object {thing.name!r} {what} of the head {face.name!r}, expected each object once")
+        if thing == face:
+            raise RetargetError(f"object {face.name!r} is listed as a part of its own head, expected other objects")
+        if things.count(thing) > 1:
+            raise RetargetError(f"object {thing.name!r} is listed twice as a part of {face.name!r}, expected it once")
     return things
 
 

@@ -20,11 +20,14 @@ STRIP = (
 )
 
 
-def copy_animation(source: Object, target: Object, renamed: Renamed) -> list[str]:
+def copy_animation(source: Object, target: Object, renamed: Renamed, face: Object) -> list[str]:
     """Copy how some keys are animated; curves that those keys have on the target already go.
+
+    All objects of a head share an action, in which each has its slot: glTF then has one animation for the head.
 
     Parameters
     ----------
+    face : the face object of the target's head.
     renamed : target key -> source key, of those to copy.
 
     Returns
@@ -37,7 +40,8 @@ def copy_animation(source: Object, target: Object, renamed: Renamed) -> list[str
     bag = find_curves(keys)
     found = {} if bag is None else {new: key_curves(bag.fcurves, old) for new, old in renamed.items()}
     if any(found.values()):
-        written = ensure_curves(own, f"{own.name} cloned")
+        animation = face.data.shape_keys.animation_data
+        written = ensure_curves(own, f"{face.name} cloned", animation.action if animation is not None else None)
         for new, curves in found.items():
             for curve in curves:
                 path = key_path(new) + curve.data_path[len(key_path(renamed[new])) :]

@@ -96,6 +96,9 @@ cloning.existing = "REPLACE"
 bpy.ops.facial_retarget.clone_shapes()
 bag = part("bridge.curves").find_curves(eye.data.shape_keys)
 assert [curve.data_path for curve in bag.fcurves] == ['key_blocks["eyeLookUpLeft"].value']
+animations = [thing.data.shape_keys.animation_data for thing in (several, eye)]
+assert animations[0].action == animations[1].action
+assert animations[0].action_slot != animations[1].action_slot
 moved = [thing for thing in found.things if thing.data.shape_keys and "jawOpen" in thing.data.shape_keys.key_blocks]
 for thing in moved:
     (copied,) = thing.data.shape_keys.animation_data.drivers

@@ -1,0 +1,65 @@
+"""Every panel draws what is there: its properties, lists and operators exist, whatever is active."""
+
+from types import SimpleNamespace
+
+import bpy
+from stage import NAME, donor_pair, empty_scene
+
+
+class Recorder:
+    """Stands for a layout: checks what a panel asks for."""
+
+    def __getattr__(self, name: str) -> object:
+        """Rows, columns and what else holds a layout."""
+        return lambda *arguments, **options: self
+
+    def prop(self, data: object, name: str, **options: object) -> None:
+        """A property must be there."""
+        assert name.startswith("[") or name in data.bl_rna.properties, (data, name)
+
+    def operator(self, name: str, **options: object) -> object:
+        """An operator must be there."""
+        group, _, own = name.partition(".")
+        return SimpleNamespace() if getattr(getattr(bpy.ops, group), own).get_rna_type() else None
+
+    def template_list(self, kind: str, key: str, *lists: object, **options: object) -> None:
+        """A list's collection and its active row must be there."""
+        assert hasattr(bpy.types, kind), kind
+        for data, name in (lists[:2], lists[2:4]):
+            assert name in data.bl_rna.properties, (data, name)
+
+    def panel(self, *arguments: object, **options: object) -> tuple["Recorder", "Recorder"]:
+        """A panel in a panel."""
+        return self, self
+
+
+def draw_all() -> None:
+    """Draw all panels and all lists."""
+    for panel in panels:
+        panel.draw(SimpleNamespace(layout=Recorder()), bpy.context)
+    face = bpy.data.objects["target"].facial_retarget
+    for kind, items in (("parts", face.parts), ("cloned", face.cloned)):
+        for item in items:
+            getattr(bpy.types, f"FACIAL_RETARGET_UL_{kind}").draw_item(
+                None, bpy.context, Recorder(), face, item, 0, face
+            )
+
+
+empty_scene()
+panels = [kind for kind in bpy.types.Panel.__subclasses__() if kind.__module__.startswith(NAME)]
+assert len(panels) > 10, panels
+task = bpy.context.scene.facial_retarget
+task.source, task.target = donor_pair()
+for active in (None, task.source, task.target):
+    bpy.context.view_layer.objects.active = active
+    draw_all()
+task.target.facial_retarget.parts.add().thing = task.source
+task.target.facial_retarget.cloned.add().name = "joy"
+for donor, sides in (("ACTOR", "SPLIT"), ("SOURCE", "MERGE")):
+    task.cloning.donor, task.cloning.sides = donor, sides
+    for method in ("hierarchical", "motion_cloning"):
+        task.cloning.method = method
+        draw_all()
+bpy.context.view_layer.objects.active = None
+bpy.ops.object.light_add()
+draw_all()
