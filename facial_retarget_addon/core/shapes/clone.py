@@ -98,10 +98,13 @@ def clone_shapes(
     found = _stilled(found, list(absent))
     alone = _stilled(taken_apart(found, whole), list(absent))
     rows = _rows(problem, shapes, alone, whole, result.per_frame)
-    lost = {name: f"acts on the {listed_features(lacking)}, which the target lacks" for name, lacking in absent.items()}
+    lost = {
+        name: f"acts on the {listed_features(acts[name], lacking)}, which the target lacks"
+        for name, lacking in absent.items()
+    }
     for name, own, moved in zip(shapes.names, shapes.largest(), alone.largest(), strict=True):
         if name not in lost and own > STILL * source.size and moved <= STILL * target.size:
-            lost[name] = f"acts on the {listed_features(list(acts[name])[:2])}, which does not reach the target's"
+            lost[name] = f"acts on the {listed_features(acts[name], list(acts[name]))} alone, which moves nothing here"
     lost = {name: lost[name] for name in shapes.names if name in lost}
     blind = {name: eyes for name, shares in acts.items() if (eyes := missing_eyeballs(shares, there.has))}
     warnings = [
@@ -177,4 +180,4 @@ def _blind_warnings(blind: Mapping[str, Sequence[str]]) -> list[str]:
     if not blind:
         return []
     eyes = dict.fromkeys(eye for lacking in blind.values() for eye in lacking)
-    return [f"the target has no {listed_features(list(eyes))} to turn: {', '.join(blind)} move what lies around alone"]
+    return [f"the target has no {' and '.join(eyes)} to turn: {', '.join(blind)} move what lies around alone"]

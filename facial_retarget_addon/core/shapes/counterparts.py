@@ -20,6 +20,8 @@ MOSTLY = 0.5
 """Share of a shape's motion, squared and by area, that lies on features from which the shape acts on them."""
 SLIGHTLY = 0.01
 """A smaller share does not count."""
+TOLD = 0.3
+"""A feature is told of if its share is this part of the largest one's."""
 EYEBALLS = (eyeball_name("left"), eyeball_name("right"))
 _IN_MOUTH = {LOWER: "mouth", UPPER: "mouth", BOTH: "mouth", ACROSS: "mouth", TONGUE: "tongue"}
 _JAW = ("2.1", "2.10", "2.11", "2.12", "2.13", "2.14")
@@ -27,12 +29,14 @@ _FEATURES = {2: "mouth", 5: "cheek", 6: "tongue", 7: "neck", 8: "mouth", 9: "nos
 
 
 def feature_of(name: str) -> str:
-    """The feature of a face that an FDP belongs to: mouth, jaw, left eye, right brow, tongue, teeth, ..."""
+    """The feature of a face that an FDP belongs to: mouth, jaw, left eye, left eyeball, right brow, tongue, ..."""
     group = int(name.split(".")[0])
     if name in _JAW:
         return "jaw"
     if name in TEETH:
         return "teeth"
+    if name in ("3.5", "3.6"):
+        return eyeball_name("left" if name in LEFT else "right")
     if group in (3, 4):
         return f"{'left' if name in LEFT else 'right'} {'eye' if group == 3 else 'brow'}"
     return _FEATURES[group]
@@ -94,9 +98,12 @@ class Features:
 def missing(shares: Mapping[str, float], has: frozenset[str]) -> list[str]:
     """The features that a shape acts on mostly and that a head lacks; none where the head has enough of them.
 
-    Eyeballs count only for a shape that acts on nothing else: lids go with a gaze on a head without eyeballs too.
+    Eyeballs that it lacks count only for a shape that acts on nothing else: lids go with a gaze on a head without
+    eyeballs too. An eyeball that it has is enough: it turns on a head without lids.
     """
     slight = {feature: share for feature, share in shares.items() if share >= SLIGHTLY}
+    if any(feature in EYEBALLS and feature in has for feature in slight):
+        return []
     counted = {feature: share for feature, share in slight.items() if feature not in EYEBALLS} or slight
     lacking = [feature for feature in counted if feature not in has]
     enough = sum(counted[feature] for feature in lacking) >= MOSTLY * sum(counted.values())
@@ -108,6 +115,8 @@ def missing_eyeballs(shares: Mapping[str, float], has: frozenset[str]) -> list[s
     return [eye for eye in EYEBALLS if shares.get(eye, 0.0) >= SLIGHTLY and eye not in has]
 
 
-def listed_features(features: Sequence[str]) -> str:
-    """Features for a sentence: 'left eye and mouth'."""
+def listed_features(shares: Mapping[str, float], among: Sequence[str]) -> str:
+    """Those of some features that a shape acts on the most, for a sentence: 'left eye and mouth'."""
+    most = max(shares[feature] for feature in among)
+    features = sorted(feature for feature in among if shares[feature] >= TOLD * most)
     return " and ".join(features) if len(features) < 3 else f"{', '.join(features[:-1])} and {features[-1]}"

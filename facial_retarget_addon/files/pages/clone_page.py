@@ -8,10 +8,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...core.arrays import FloatArray, Progress, no_progress
+from ...core.errors import RetargetError
 from ...core.mpeg4.fdps import FDPS
 from ...core.mpeg4.head import head_axes
 from ...core.parts.find import NEEDED
 from ...core.problem import Face
+from ...core.shapes.counterparts import feature_of
 from .lettering import lettered
 from .page import Figure, Section, html_page
 from .pictures import Image, contact_sheet, png_bytes
@@ -22,6 +24,8 @@ WORST = 3
 """Keys that are marked: those with the most torn edges and flipped triangles."""
 COLUMNS = 4
 """Keys beside each other on a contact sheet, three pictures each."""
+_BEYOND = ("forehead", "ear", "neck")
+"""Features that pictures need not show."""
 _FRAME = (205, 40, 40)
 _SECTIONS = (
     Section(
@@ -53,12 +57,14 @@ class KeyPictures(NamedTuple):
 
 
 def portrait_of(face: Face) -> Portrait:
-    """Takes pictures of a face from in front."""
-    known = face.points.subset([name for name in face.points.names if name in FDPS])
-    axes = upright(face)
-    if set(known.names) >= NEEDED:
-        axes = head_axes(known.names, known.positions(face.mesh.vertices))
-    return Portrait(face.mesh, face.points, axes, SIZE)
+    """Takes pictures of a face from in front: of what lies between brows and chin, of all of a head without a mouth."""
+    known = [name for name in face.points.names if name in FDPS]
+    try:
+        axes = head_axes(known, face.points.subset(known).positions(face.mesh.vertices))
+    except RetargetError:
+        axes = upright(face)
+    framed = [name for name in known if feature_of(name) not in _BEYOND] if set(known) >= NEEDED else []
+    return Portrait(face.mesh, face.points.subset(framed), axes, SIZE)
 
 
 def key_pictures(face: Face, seen: FloatArray, progress: Progress = no_progress) -> list[Image]:
