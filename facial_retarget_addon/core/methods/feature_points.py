@@ -30,6 +30,7 @@ from ..mpeg4.head import head_axes
 from ..mpeg4.regions import point_lengths
 from ..parts.acting_parts import moved_vertices, with_parts
 from ..parts.eyes import EyeTurns, pair_eyeballs
+from ..parts.known_head import know_head
 from ..parts.report import still_components
 from ..points import FeaturePoints, common_names
 from ..problem import Problem
@@ -207,7 +208,11 @@ def _eye_turns(
 ) -> EyeTurns:
     """The eyeballs that both faces have; the published variant leaves them where they are."""
     own = np.full(len(problem.target.mesh.vertices), settings.variant == "paper")
-    return pair_eyeballs(replace(problem.source, points=points[0]), replace(problem.target, points=points[1]), own)
+    heads = [
+        know_head(replace(face, points=on_face))
+        for face, on_face in zip((problem.source, problem.target), points, strict=True)
+    ]
+    return pair_eyeballs(heads[0], heads[1], own)
 
 
 def _lid_pairs(

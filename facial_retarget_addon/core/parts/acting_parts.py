@@ -13,8 +13,16 @@ from ..mesh import TriMesh
 from ..points import FeaturePoints
 from .find import find_parts
 from .follow import fit_following
-from .kinds import NO_NAMES, NamedParts
-from .report import part_rows
+from .kinds import BOTH, LOWER, NO_NAMES, TONGUE, NamedParts
+from .known_head import KnownHead
+from .report import FOLLOWS, part_rows
+
+WITH_CHIN = {
+    LOWER: "goes with the chin",
+    TONGUE: "goes with the chin",
+    BOTH: "its lower half goes with the chin",
+}
+"""Kind of part -> what it does where points move the skin."""
 
 
 def with_parts(
@@ -31,9 +39,10 @@ def with_parts(
     """
     own = moved_vertices(deformer) | turning
     parts = find_parts(mesh, points, deformer.axes, deformer.eyeballs, named)
-    following = fit_following(mesh, points, deformer.axes, [part for part in parts if not own[part.vertices].any()])
+    head = KnownHead(mesh, points, deformer.axes, deformer.eyeballs, parts)
+    following = fit_following(head, [part for part in parts if not own[part.vertices].any()])
     whole = replace(deformer, matrix=following.extend(deformer.matrix), arcs=following.extend(deformer.arcs))
-    return whole, part_rows(parts, moved_vertices(whole) & ~own, own)
+    return whole, part_rows(parts, moved_vertices(whole) & ~own, own, FOLLOWS | WITH_CHIN)
 
 
 def moved_vertices(deformer: PointDeformer) -> BoolArray:

@@ -4,48 +4,56 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-import numpy as np
-
-from ..acting.eyeballs import find_eyeballs
 from ..arrays import BoolArray, FloatArray
-from ..mpeg4.fdps import FDPS
-from ..mpeg4.head import head_axes
 from ..problem import Face
 from .eyes import EyeTurns, pair_eyeballs
-from .find import NEEDED, find_parts
 from .follow import Following, fit_following
-from .report import part_rows
+from .known_head import know_head
+from .mouth import Mouth, fit_mouth
+from .own_motion import OwnMotion, fit_own_motion
+from .report import FOLLOWS, part_rows
 
 
 class CarriedParts(NamedTuple):
-    """What the skin's displacements do to the parts, the eyes, what each part does, and (V,) which vertices move."""
+    """What moves beside the skin.
+
+    following : what rides on the target's skin. own : what it does beyond that, as the source's does.
+    mouth : teeth, gums and tongue. eyes : eyeballs.
+    rows : what each part does. moves : (Vt,) which vertices move.
+    """
 
     following: Following
+    own: OwnMotion | None
+    mouth: Mouth | None
     eyes: EyeTurns
     rows: list[dict[str, Any]]
     moves: BoolArray
 
     def add_to(self, displacements: FloatArray, frames: FloatArray) -> FloatArray:
         """Target displacements (F, Vt, 3) of the skin with the parts' added, in place, for source frames (F, Vs, 3)."""
-        return self.eyes.add_to(self.following.add_to(displacements), frames)
+        for moving in (self.own, self.mouth, self.eyes):
+            if moving is not None:
+                moving.add_to(displacements, frames)
+        return self.following.add_to(displacements)
 
 
 def carried_parts(source: Face, target: Face, own: BoolArray) -> CarriedParts:
-    """Find a head's parts and let them follow its skin, and its eyeballs the source's.
+    """Let the parts of the target do what the source's do; what the source lacks follows the target's skin.
 
     Parameters
     ----------
-    source, target : points with MPEG-4 names count; without `NEEDED` among them nothing follows but what is named.
+    source, target : points with MPEG-4 names count; without `find.NEEDED` among them only what is named follows.
     own : (Vt,) the target's vertices that have motion of their own: their parts are left to it.
     """
-    eyes = pair_eyeballs(source, target, own)
-    mesh, points, named = target.mesh, target.points, target.named_parts
-    known = points.subset([name for name in points.names if name in FDPS])
-    axes = np.eye(3)
-    if set(known.names) >= NEEDED:
-        axes = head_axes(known.names, known.positions(mesh.vertices))
-    parts = find_parts(mesh, known, axes, find_eyeballs(mesh, known, axes, named), named)
-    following = fit_following(mesh, known, axes, [part for part in parts if not own[part.vertices].any()])
+    ours, theirs = know_head(source), know_head(target)
+    free = [part for part in theirs.parts if not own[part.vertices].any()]
+    following = fit_following(theirs, free, jaw=False)
+    mouth, eyes = fit_mouth(ours, theirs, free), pair_eyeballs(ours, theirs, own)
     moves = eyes.turning()
     moves[following.riders] = True
-    return CarriedParts(following, eyes, part_rows(parts, moves, own | eyes.turning()), moves)
+    does = dict(FOLLOWS)
+    if mouth is not None:
+        moves[mouth.moves()] = True
+        does |= mouth.does()
+    rows = part_rows(theirs.parts, moves, own, does)
+    return CarriedParts(following, fit_own_motion(ours, theirs, free), mouth, eyes, rows, moves)

@@ -6,14 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..acting.eyeballs import Eyeball, find_eyeballs
+from ..acting.eyeballs import Eyeball
 from ..arrays import BoolArray, FloatArray
-from ..base.regions import eye_separation
-from ..mpeg4.fdps import FDPS
-from ..mpeg4.head import head_axes
-from ..problem import Face
 from ..rigid import closest_rotations
-from .find import NEEDED
+from .known_head import KnownHead
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,11 +38,13 @@ class EyeTurns:
         for ours, theirs in self.pairs:
             rest = self.source[ours.vertices]
             now = frames[:, ours.vertices].astype(np.float64)
-            middle, middles = rest.mean(axis=0), now.mean(axis=1)
-            turns = closest_rotations(np.einsum("fni,nj->fij", now - middles[:, None], rest - middle))[0]
-            shifts = middles - middle - (turns - np.eye(3)) @ (middle - ours.centre)
-            there = theirs.turned(self.target, self.across @ turns @ self.across.T) - self.target[theirs.vertices]
-            there += self.scale * (shifts @ self.across.T)[:, None]
+            middle, shift = rest.mean(axis=0), (now - rest).mean(axis=1)
+            turns = closest_rotations(np.einsum("fni,nj->fij", now - middle - shift[:, None], rest - middle))[0]
+            # What rests must not turn by rounding.
+            turns[(now == rest).all(axis=(1, 2))] = np.eye(3)
+            change = turns - np.eye(3)
+            there = theirs.turned(self.target, self.across @ change @ self.across.T) - theirs.centre
+            there += self.scale * ((shift - change @ (middle - ours.centre)) @ self.across.T)[:, None]
             displacements[:, theirs.vertices] += there
         return displacements
 
@@ -58,28 +56,25 @@ class EyeTurns:
         return mask
 
 
-def pair_eyeballs(source: Face, target: Face, own: BoolArray) -> EyeTurns:
-    """The eyeballs that both faces have, by side.
+def pair_eyeballs(source: KnownHead, target: KnownHead, own: BoolArray) -> EyeTurns:
+    """The eyeballs that both heads have, by side.
 
     Parameters
     ----------
-    source, target : points with MPEG-4 names count; without `NEEDED` among them no eyeball is found.
+    source, target : none is paired where the points do not show where eyes and mouth are.
     own : (Vt,) vertices that have motion of their own: their eyeballs are left to it.
     """
-    faces = source, target
     # Frames are float32: what does not move must not turn by the rounding of its neutral.
     source_rest = source.mesh.vertices.astype(np.float32).astype(np.float64)
-    if not all(set(points.names) >= NEEDED for points in (face.points for face in faces)):
+    if not source.shown or not target.shown:
         return EyeTurns((), source_rest, target.mesh.vertices, np.eye(3), 1.0)
-    known = [face.points.subset([name for name in face.points.names if name in FDPS]) for face in faces]
-    axes = [head_axes(p.names, p.positions(face.mesh.vertices)) for p, face in zip(known, faces, strict=True)]
-    ours, theirs = (
-        find_eyeballs(face.mesh, p, a, face.named_parts) for face, p, a in zip(faces, known, axes, strict=True)
-    )
     pairs = tuple(
-        (eye, theirs[side])
-        for side, eye in ours.items()
-        if side in theirs and len(eye.vertices) and len(theirs[side].vertices) and not own[theirs[side].vertices].any()
+        (eye, target.eyeballs[side])
+        for side, eye in source.eyeballs.items()
+        if side in target.eyeballs
+        and len(eye.vertices)
+        and len(target.eyeballs[side].vertices)
+        and not own[target.eyeballs[side].vertices].any()
     )
-    scale = eye_separation(target.mesh, known[1]) / eye_separation(source.mesh, known[0])
-    return EyeTurns(pairs, source_rest, target.mesh.vertices, axes[1].T @ axes[0], scale)
+    across = target.axes.T @ source.axes
+    return EyeTurns(pairs, source_rest, target.mesh.vertices, across, target.unit / source.unit)

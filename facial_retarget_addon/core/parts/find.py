@@ -28,6 +28,7 @@ from .kinds import (
     NAMED_KINDS,
     NO_NAMES,
     OTHER,
+    TONGUE,
     UPPER,
     NamedParts,
     eyeball_name,
@@ -38,8 +39,12 @@ HAIRS = {BROW: ("4.1", "4.2", "4.3", "4.4", "4.5", "4.6"), MOUSTACHE: ("8.1", "9
 
 NEEDED = frozenset(("2.1", "4.3", "4.4", "8.3", "8.4"))
 """FDPs without which nothing says where eyes and mouth are."""
-ROWS_OF_TEETH = {"9.8": UPPER, "9.10": UPPER, "9.9": LOWER, "9.11": LOWER}
-"""FDP on teeth -> their row."""
+IN_MOUTH = {
+    **dict.fromkeys(("9.8", "9.10"), UPPER),
+    **dict.fromkeys(("9.9", "9.11"), LOWER),
+    **dict.fromkeys(("6.1", "6.2", "6.3", "6.4"), TONGUE),
+}
+"""FDP in the mouth -> what it lies on."""
 
 # In eye separations.
 MOUTH_WIDTH = 0.8
@@ -52,6 +57,10 @@ BITE = 0.025
 """The middle of a lower tooth lies farther below the lips' line than this; upper teeth reach below that line too."""
 SPANS = 0.25
 """What reaches farther than this both above and below the lips' line holds gums of both rows, or lies behind them."""
+TONGUE_DEPTH = 0.3
+"""A tongue reaches at least this far from its tip to its root."""
+TONGUE_MIDDLE = 0.3
+"""And its rear half is this near to its middle line somewhere, as a share of half its width: a row of teeth is not."""
 HAIR_NEAR = 0.45
 """The middle of hair on the face is at most this far from a point that it grows around."""
 HAIR_SIZE = 2.2
@@ -125,10 +134,10 @@ def find_parts(
         for eye in eyeballs.values()
         if eyeball_name(eye.side) not in named
     ]
-    rows = _rows_of_teeth(mesh, points)
+    held = _held_in_mouth(mesh, points)
     for k in labels:
         if k not in balls:
-            kind, reason = head.kind(places[groups[k]], corners[0][k], corners[1][k], rows.get(k, set()))
+            kind, reason = head.kind(places[groups[k]], corners[0][k], corners[1][k], held.get(k, set()))
             parts.append(Part(kind, groups[k], reason))
     if not {UPPER, LOWER} <= {part.kind for part in parts}:
         parts = [part._replace(kind=ACROSS) if part.reason == SPANNING else part for part in parts]
@@ -143,13 +152,13 @@ def _on_skin(points: FeaturePoints) -> FeaturePoints:
     return points.subset([name for name in points.names if name not in OWN_PARTS])
 
 
-def _rows_of_teeth(mesh: TriMesh, points: FeaturePoints) -> dict[int, set[str]]:
-    """Component -> the rows of teeth that points say it holds."""
-    rows: dict[int, set[str]] = {}
+def _held_in_mouth(mesh: TriMesh, points: FeaturePoints) -> dict[int, set[str]]:
+    """Component -> the parts of the mouth that points say it holds."""
+    held: dict[int, set[str]] = {}
     for name, vertices in zip(points.names, points.vertices, strict=True):
-        if name in ROWS_OF_TEETH:
-            rows.setdefault(int(mesh.components[vertices[0]]), set()).add(ROWS_OF_TEETH[name])
-    return rows
+        if name in IN_MOUTH:
+            held.setdefault(int(mesh.components[vertices[0]]), set()).add(IN_MOUTH[name])
+    return held
 
 
 class _Eye(NamedTuple):
@@ -217,10 +226,15 @@ class _Head:
             cKDTree(places[np.isin(mesh.components, skin)]),
         )
 
-    def kind(self, places: FloatArray, low: FloatArray, high: FloatArray, rows: set[str]) -> tuple[str, str]:
-        """What a component at places (n, 3), in a box from low (3,) to high (3,), is, and how that is known."""
-        if rows:
-            return (BOTH if len(rows) == 2 else rows.copy().pop()), "points lie on its teeth"
+    def kind(self, places: FloatArray, low: FloatArray, high: FloatArray, held: set[str]) -> tuple[str, str]:
+        """What a component at places (n, 3), in a box from low (3,) to high (3,), is, and how that is known.
+
+        held : parts of the mouth of which points say that it holds them.
+        """
+        if len(held) == 1:
+            return held.copy().pop(), "points lie on it"
+        if held:
+            return (BOTH if UPPER in held else LOWER), "points lie on it"
         for eye in self.eyes:
             if eye.holds(places):
                 return AROUND_EYE, f"along the {eye.side} lids"
@@ -229,6 +243,8 @@ class _Head:
             if min(above, below) > SPANS * self.unit:
                 return BOTH, SPANNING
             if above - below < -2 * BITE * self.unit:
+                if self._is_tongue(places, low, high):
+                    return TONGUE, "behind the lips, below their line, from its tip to its root in the middle"
                 return LOWER, "behind the lips, mostly below their line"
             return UPPER, "behind the lips, mostly above their line"
         for kind, around in self.hairs.items():
@@ -241,6 +257,11 @@ class _Head:
         height = low[1] > self.chin[1] and high[1] < self.nose[1]
         depth = high[2] < self.lips[2] + BEFORE_LIPS * self.unit and low[2] > self.lips[2] - MOUTH_DEPTH * self.unit
         return bool(sideways and height and depth)
+
+    def _is_tongue(self, places: FloatArray, low: FloatArray, high: FloatArray) -> bool:
+        rear = places[places[:, 2] <= 0.5 * (low[2] + high[2])]
+        middle = np.abs(rear[:, 0] - 0.5 * (low[0] + high[0])).min() < TONGUE_MIDDLE * 0.5 * (high[0] - low[0])
+        return bool(middle and high[2] - low[2] > TONGUE_DEPTH * self.unit)
 
     def _grows(self, places: FloatArray, low: FloatArray, high: FloatArray, around: FloatArray) -> bool:
         near = np.linalg.norm(around - 0.5 * (low + high), axis=1).min() < HAIR_NEAR * self.unit

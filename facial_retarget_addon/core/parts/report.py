@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -10,39 +10,40 @@ import numpy as np
 from ..arrays import BoolArray
 from ..mesh import TriMesh
 from .find import Part
-from .kinds import AROUND_EYE, BEARD, BOTH, BROW, LOWER, MOUSTACHE, TONGUE
+from .kinds import AROUND_EYE, BEARD, BROW, EYEBALL, MOUSTACHE
 
 FOLLOWS = {
     AROUND_EYE: "rides on the skin of the lids",
     BROW: "rides on the skin",
     MOUSTACHE: "rides on the skin",
     BEARD: "rides on the skin",
-    LOWER: "goes with the chin",
-    TONGUE: "goes with the chin",
-    BOTH: "its lower half goes with the chin",
+    EYEBALL: "turns as the source's does",
 }
-"""Kind of part -> how it follows, when it does."""
+"""Kind of part -> what it does, when it moves."""
 
 
-def part_rows(parts: Sequence[Part], follows: BoolArray, own: BoolArray) -> list[dict[str, Any]]:
+def part_rows(
+    parts: Sequence[Part], follows: BoolArray, own: BoolArray, does: Mapping[str, str]
+) -> list[dict[str, Any]]:
     """What each kind of part does and how it was known; parts that are alike in all this are one row.
 
     Parameters
     ----------
-    follows : (V,) vertices that follow the skin.
+    follows : (V,) vertices that follow.
     own : (V,) vertices that have motion of their own.
+    does : kind of part -> what it does when it follows.
     """
     rows: dict[tuple[str, str, str], list[int]] = {}
     for part in parts:
-        does = "stays"
+        what = "stays"
         if own[part.vertices].any():
-            does = "has motion of its own"
+            what = "has motion of its own"
         elif follows[part.vertices].any():
-            does = FOLLOWS[part.kind]
-        rows.setdefault((part.kind, does, part.reason), []).append(len(part.vertices))
+            what = does[part.kind]
+        rows.setdefault((part.kind, what, part.reason), []).append(len(part.vertices))
     return [
-        {"kind": kind, "parts": len(sizes), "vertices": sum(sizes), "does": does, "reason": reason}
-        for (kind, does, reason), sizes in rows.items()
+        {"kind": kind, "parts": len(sizes), "vertices": sum(sizes), "does": what, "reason": reason}
+        for (kind, what, reason), sizes in rows.items()
     ]
 
 
