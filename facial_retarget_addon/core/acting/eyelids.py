@@ -91,6 +91,8 @@ def find_lids(mesh: TriMesh, points: FeaturePoints, eyeballs: Mapping[str, Eyeba
         upper, lower, outer, inner, _ = EYES[side]
         away = unit_vectors(mesh.vertices - ball.centre)
         inwards = np.clip(OUTSIDE - np.einsum("vi,vi->v", mesh.vertex_normals, away), 0.0, 1.0)
+        # Where the skin ends at the opening, its end is the margin, whichever way it is rolled in.
+        inwards[mesh.boundary_vertices] = 0.0
         graph = _costly(steps, 1 + INSIDE_COST * inwards)
         corners = points.subset([inner, outer]).positions(mesh.vertices)
         margins = {name: _margin(mesh, graph, points.subset([inner, name, outer]), corners) for name in (upper, lower)}
