@@ -14,9 +14,9 @@ from .sculpt import Sculpture
 from .smooth import bell, step
 from .wrinkles import tension, wrinkle_fields
 
-_JAW_ANGLE = np.radians(12.2)
+JAW_ANGLE = np.radians(12.2)
 """How far the jaw turns at full contraction."""
-_JAW_SHIFTS = {"jaw_forward": ((0.0, -0.015, 0.125), 0.25), "jaw_aside": ((0.17, 0.0, 0.0), 0.3)}
+JAW_SHIFTS = {"jaw_forward": ((0.0, -0.015, 0.125), 0.25), "jaw_aside": ((0.17, 0.0, 0.0), 0.3)}
 """How far the jaw shifts, in eye separations, and which share of that moves one lip against the other."""
 
 
@@ -44,13 +44,17 @@ class Acting:
         self._pulls, self._folds = pulls.astype(np.float32), folds.astype(np.float32)
         self._lids = [Lids(sculpture, lens, side, places) for lens, side in ((LEFT_EYE, "l"), (RIGHT_EYE, "r"))]
         weight, sealed = _jaw_weight(places), _jaw_weight(places, sealed=True)
-        for name, (shift, share) in _JAW_SHIFTS.items():
+        for name, (shift, share) in JAW_SHIFTS.items():
             carried = (sealed + share * (weight - sealed)) * (1.0 - step(np.abs(places[:, 0]), 0.60, 1.35))
             self._pulls[column(name)] = sculpture.scale * carried[:, None] * np.array(shift)
         self._hanging = np.flatnonzero(np.maximum(weight, sealed))
         self._jaw = weight[self._hanging].astype(np.float32)
         self._sealed = sealed[self._hanging].astype(np.float32)
         self._from_joint = (self.neutral[self._hanging] - sculpture.jaw_joint).astype(np.float32)
+
+    def felt(self, table: FloatArray) -> FloatArray:
+        """Contractions (F, A) in the artist's own manner."""
+        return np.asarray(table, np.float64) * self._gain
 
     def displacements(self, table: FloatArray, wrinkles: float = 1.0) -> FloatArray:
         """Displacements (F, N, 3) float32 under contractions (F, A); zero, exactly, where nothing contracts.
@@ -60,7 +64,7 @@ class Acting:
         table : as `contractions` makes it.
         wrinkles : factor on the height of the wrinkles.
         """
-        table = np.asarray(table, np.float64) * self._gain
+        table = self.felt(table)
         moved = np.tensordot(table.astype(np.float32), self._pulls, 1)
         moved += np.tensordot(wrinkles * tension(table).astype(np.float32), self._folds, 1)
         for lids in self._lids:
@@ -71,11 +75,19 @@ class Acting:
     def _turn_jaw(self, table: FloatArray, moved: FloatArray) -> None:
         """Turn what hangs on the jaw about the axis through its joints; displacements, in place."""
         jaw, seal = (table[:, column(name), None].astype(np.float32) for name in ("jaw", "seal"))
-        angle = _JAW_ANGLE * jaw * (self._jaw + seal * (self._sealed - self._jaw))
-        sine, versine = np.sin(angle), 2 * np.sin(0.5 * angle) ** 2
-        y, z = (moved[:, self._hanging, k] + self._from_joint[:, k] for k in (1, 2))
-        moved[:, self._hanging, 1] -= versine * y + sine * z
-        moved[:, self._hanging, 2] += sine * y - versine * z
+        angle = JAW_ANGLE * jaw * (self._jaw + seal * (self._sealed - self._jaw))
+        from_joint = moved[:, self._hanging] + self._from_joint
+        moved[:, self._hanging] += turned_down(from_joint, angle) - from_joint
+
+
+def turned_down(from_axis: FloatArray, angle: FloatArray) -> FloatArray:
+    """Positions (F, N, 3), relative to an axis along x, turned by angles (F, N) so that what lies before it sinks."""
+    sine, versine = np.sin(angle), 2 * np.sin(0.5 * angle) ** 2
+    turned = from_axis.copy()
+    y, z = from_axis[..., 1], from_axis[..., 2]
+    turned[..., 1] -= versine * y + sine * z
+    turned[..., 2] += sine * y - versine * z
+    return turned
 
 
 def _jaw_weight(places: FloatArray, sealed: bool = False) -> FloatArray:

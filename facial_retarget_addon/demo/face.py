@@ -13,12 +13,12 @@ from ..core.points import FeaturePoints
 from ..core.problem import Face
 from .acting import Acting
 from .expressions import EXPRESSIONS
-from .gaze import Gaze
 from .landmarks import POINTS
 from .layouts import Layout
+from .moving_parts import Gaze, MovingPart, OnJaw
 from .muscles import contractions
 from .paint import Palette, skin_colours
-from .parts import Part, parts
+from .parts import Part, jaw_parts, skull_parts
 from .sculpt import Sculpture
 
 Warp = Callable[[FloatArray], FloatArray]
@@ -26,7 +26,7 @@ Warp = Callable[[FloatArray], FloatArray]
 
 @dataclass(frozen=True, eq=False)
 class DemoFace:
-    """A built-in face: skin first, then eyeballs, which turn with the gaze; teeth and the mouth's back wall stay put.
+    """A built-in face: skin first, then what lies behind it.
 
     Attributes
     ----------
@@ -38,7 +38,7 @@ class DemoFace:
     face : neutral mesh, feature points, the seven examples.
     places : (N, 2) chart places of the skin's vertices, which are the first N: equal places are the same skin.
     acting : moves the skin, before the warp.
-    gazes : turn the eyeballs, before the warp.
+    moving : the parts that act, eyeballs first, before the warp.
     warp : what the finished positions go through.
     """
 
@@ -50,7 +50,7 @@ class DemoFace:
     face: Face
     places: FloatArray
     acting: Acting
-    gazes: tuple[Gaze, ...]
+    moving: tuple[MovingPart, ...]
     warp: Warp
 
     def frames(self, table: FloatArray, wrinkles: float = 1.0) -> FloatArray:
@@ -62,9 +62,10 @@ class DemoFace:
         moved += self.acting.neutral
         frames = np.repeat(self.face.mesh.vertices[None].astype(np.float32), len(table), axis=0)
         frames[:, : len(self.places)] = self.warp(moved)
-        for gaze in self.gazes:
-            acting = gaze.turning(table)
-            frames[np.ix_(acting, gaze.rows)] = self.warp(gaze.positions(table[acting]))
+        table = self.acting.felt(table)
+        for part in self.moving:
+            acting = np.flatnonzero(table[:, part.columns].any(axis=1))
+            frames[np.ix_(acting, part.rows)] = self.warp(part.positions(table[acting]))
         return frames
 
 
@@ -80,6 +81,7 @@ def build_face(
     palette: Palette,
     manner: Mapping[str, float],
     warp: Warp = unwarped,
+    with_jaw: bool = False,
 ) -> DemoFace:
     """Mesh a sculpture.
 
@@ -91,6 +93,7 @@ def build_face(
     palette : its colours.
     manner : action name without side -> factor on its contraction.
     warp : what all positions go through, for a face that no sculpture makes.
+    with_jaw : whether it has lower teeth and a tongue; its parts are then named.
     """
     layout, vertices = layout.pinned(np.array(list(POINTS.values())))
     acting = Acting(sculpture, layout.places, manner)
@@ -101,13 +104,14 @@ def build_face(
         0.12 + 0.86 * (layout.places - low) / (high - low),
         skin_colours(layout.places, palette),
     )
-    behind = parts(sculpture)
-    pieces = [skin, *behind]
+    behind = skull_parts(sculpture) | (jaw_parts(sculpture) if with_jaw else {})
+    pieces = [skin, *behind.values()]
     first = np.cumsum([0, *(len(piece.vertices) for piece in pieces)])
-    gazes = tuple(
-        Gaze(sculpture, side, ball, np.arange(at, at + len(ball.vertices)))
-        for side, ball, at in zip(("l", "r"), behind[:2], first[1:3], strict=True)
-    )
+    rows = {part: np.arange(*first[k : k + 2]) for k, part in enumerate(behind, start=1)}
+    moving: list[MovingPart] = [
+        Gaze(sculpture, side[0], behind[f"{side} eyeball"], rows[f"{side} eyeball"]) for side in ("left", "right")
+    ]
+    moving += [OnJaw(sculpture, part, behind[part], rows[part]) for part in ("lower teeth", "tongue") if part in rows]
     counts = np.concatenate([np.full(len(piece.polygons), piece.polygons.shape[1]) for piece in pieces])
     corners = np.concatenate([(piece.polygons + at).ravel() for piece, at in zip(pieces, first[:-1], strict=True)])
     # In float32, so that the frames, which are float32, start from exactly this neutral.
@@ -115,17 +119,18 @@ def build_face(
     mesh = TriMesh.from_polygons(positions, counts, corners)
     corner_weights = np.tile([1.0, 0.0, 0.0], (len(POINTS), 1))
     points = FeaturePoints(tuple(POINTS), np.repeat(vertices[:, None], 3, axis=1), corner_weights)
+    named = {part: held[:1] for part, held in rows.items()} if with_jaw else {}
     face = DemoFace(
         name=name,
         counts=counts.astype(np.int64),
         corners=corners,
         uvs=np.concatenate([piece.uvs for piece in pieces]),
         colours=np.concatenate([piece.colours for piece in pieces]),
-        face=Face(mesh, points),
+        face=Face(mesh, points, named_parts=named),
         places=layout.places,
         acting=acting,
-        gazes=gazes,
+        moving=tuple(moving),
         warp=warp,
     )
     examples = face.frames(contractions(*EXPRESSIONS.values())).astype(np.float64)
-    return replace(face, face=Face(mesh, points, dict(zip(EXPRESSIONS, examples, strict=True))))
+    return replace(face, face=replace(face.face, examples=dict(zip(EXPRESSIONS, examples, strict=True))))

@@ -83,7 +83,7 @@ _PAIRED: dict[str, LinearMuscle] = {
 }
 SIDES = {"l": 1.0, "r": -1.0}
 _EYE = ("blink", "widen", "tighten", "look_up", "look_aside")
-_JAW = ("jaw", "jaw_forward", "jaw_aside", "seal")
+_JAW = ("jaw", "jaw_forward", "jaw_aside", "seal", "tongue_out")
 
 _SOFT_MIDDLE = 0.22
 """How far from the middle line one half of the lips takes part in what the other does."""
@@ -234,7 +234,7 @@ def contractions(*poses: Mapping[str, float]) -> FloatArray:
 
 
 def fields(places: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """What each action does to chart places (N, 2): slides (A, N, 2) and bulges (A, N); none by eyes and jaw."""
+    """What each action does to chart places (N, 2): slides (A, N, 2) and bulges (A, N); none by eyes, jaw, tongue."""
     slides = np.zeros((len(ACTIONS), len(places), 2))
     bulges = np.zeros((len(ACTIONS), len(places)))
     # No muscle drags a lid off its eyeball.

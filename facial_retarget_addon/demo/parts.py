@@ -1,4 +1,4 @@
-"""What lies behind the skin of a built-in face: eyeballs, teeth, the mouth's dark."""
+"""What lies behind the skin of a built-in face: eyeballs, tongue, teeth, the mouth's dark."""
 
 from __future__ import annotations
 
@@ -9,11 +9,15 @@ import numpy as np
 from ..core.arrays import FloatArray, IntArray
 from .chart import MOUTH
 from .sculpt import Sculpture
+from .smooth import bell
 
+_BALL = 0.985
+"""Size of an eyeball, of the one that the lids are shaped by: so they lie before it."""
 _WHITE = (0.82, 0.81, 0.79)
 _IRIS = (0.16, 0.22, 0.26)
 _PUPIL = (0.015, 0.015, 0.015)
 _TOOTH = (0.80, 0.77, 0.68)
+_FLESH = (0.55, 0.20, 0.19)
 _DARK = (0.10, 0.02, 0.02)
 
 
@@ -27,9 +31,19 @@ class Part:
     colours: FloatArray
 
 
-def parts(sculpture: Sculpture) -> list[Part]:
-    """The eyeballs, the upper teeth and the mouth's back wall of a sculpture, each its own component."""
-    return [_eyeball(sculpture, 1.0), _eyeball(sculpture, -1.0), _teeth(sculpture), _wall(sculpture)]
+def skull_parts(sculpture: Sculpture) -> dict[str, Part]:
+    """The eyeballs, the upper teeth and the mouth's back wall of a sculpture, each its own component, by name."""
+    return {
+        "left eyeball": _eyeball(sculpture, 1.0),
+        "right eyeball": _eyeball(sculpture, -1.0),
+        "upper teeth": _upper_teeth(sculpture),
+        "still": _wall(sculpture),
+    }
+
+
+def jaw_parts(sculpture: Sculpture) -> dict[str, Part]:
+    """What lies on the jaw of a sculpture, by name: the lower teeth and the tongue."""
+    return {"lower teeth": _lower_teeth(sculpture), "tongue": _tongue(sculpture)}
 
 
 def _grid(rows: int, columns: int) -> tuple[FloatArray, FloatArray, IntArray]:
@@ -40,25 +54,46 @@ def _grid(rows: int, columns: int) -> tuple[FloatArray, FloatArray, IntArray]:
     return v.ravel(), u.ravel(), quads
 
 
-def _eyeball(sculpture: Sculpture, side: float) -> Part:
-    """The front of an eyeball: squares of a grid drawn into rings around the pupil, so that it has no pole."""
-    v, u, quads = _grid(32, 32)
+def _rings(count: int) -> tuple[FloatArray, FloatArray, IntArray]:
+    """Squares of a grid drawn into rings around their middle, so that there is no pole.
+
+    Returns
+    -------
+    How far out (V,) each vertex lies, from 0 to 1; which way (V, 2); the quads.
+    """
+    v, u, quads = _grid(count, count)
     square = np.stack([2 * u - 1, 2 * v - 1], axis=1)
-    ring = np.abs(square).max(axis=1)
-    round_ = square / np.maximum(np.hypot(*square.T), 1e-9)[:, None]
+    return np.abs(square).max(axis=1), square / np.maximum(np.hypot(*square.T), 1e-9)[:, None], quads
+
+
+def _eyeball(sculpture: Sculpture, side: float) -> Part:
+    """The front of an eyeball, in rings around the pupil."""
+    ring, round_, quads = _rings(32)
     angle = np.radians(115.0) * ring**1.4
-    # Far behind the lids the ball grows, so that no view past a lid's corner misses it, and no gaze shows it.
-    radius = 1.0 + 0.25 * np.maximum(angle - 1.5, 0.0)
-    across, forward = radius * np.sin(angle), radius * np.cos(angle)
-    unit = np.concatenate([across[:, None] * round_, forward[:, None]], axis=1)
+    unit = np.concatenate([np.sin(angle)[:, None] * round_, np.cos(angle)[:, None]], axis=1)
     colours = np.where((angle < 0.385)[:, None], _IRIS, _WHITE)
     colours[angle < 0.165] = _PUPIL
-    positions = sculpture.eye_centre(side) + sculpture.eye_radius * unit
+    positions = sculpture.eye_centre(side) + _BALL * sculpture.eye_radius * unit
     uvs = np.array([0.06 + 0.03 * side, 0.05]) + 0.025 * ring[:, None] * round_
     return Part(positions, quads, uvs, colours)
 
 
-def _teeth(sculpture: Sculpture) -> Part:
+def _tongue(sculpture: Sculpture) -> Part:
+    """It lies below the upper teeth, its tip behind them; its root goes through the mouth's wall."""
+    ring, round_, quads = _rings(20)
+    angle = np.radians(125.0) * ring
+    unit = np.concatenate([np.sin(angle)[:, None] * round_, np.cos(angle)[:, None]], axis=1)
+    flat = unit * np.array([0.20, 0.060, 0.27])
+    # A furrow along the middle.
+    flat[:, 1] -= 0.018 * bell(flat[:, 0], 0.05) * (unit[:, 1] > 0) * np.sin(angle)
+    middle = sculpture.sheet(np.array([[MOUTH.x, MOUTH.y - 0.10]]))[0]
+    depth = 0.075 * sculpture.shape.muzzle - 0.575
+    positions = middle + sculpture.scale * (flat + np.array([0.0, 0.0, depth]))
+    uvs = np.array([0.22, 0.05]) + 0.025 * ring[:, None] * round_
+    return Part(positions, quads, uvs, np.tile(_FLESH, (len(positions), 1)))
+
+
+def _upper_teeth(sculpture: Sculpture) -> Part:
     """The upper row, behind the upper lip."""
     v, u, quads = _grid(4, 84)
     x = 0.80 * (u - 0.5)
@@ -66,6 +101,16 @@ def _teeth(sculpture: Sculpture) -> Part:
     places = np.stack([x, -1.155 + 0.20 * v + 0.02 * gaps * (v < 0.1)], axis=1)
     depth = 0.075 * sculpture.shape.muzzle - 0.160 - 1.7 * x**2 - 0.05 * v - 0.012 * gaps
     return _behind(sculpture, places, depth, 1.0, quads, 0.90, _TOOTH)
+
+
+def _lower_teeth(sculpture: Sculpture) -> Part:
+    """The lower row, behind the upper one and below its edge."""
+    v, u, quads = _grid(4, 72)
+    x = 0.72 * (u - 0.5)
+    gaps = 1.0 - np.abs(np.sin(12 * np.pi * (u - 0.5))) ** 0.5
+    places = np.stack([x, -1.350 + 0.19 * v - 0.015 * gaps * (v > 0.9)], axis=1)
+    depth = 0.075 * sculpture.shape.muzzle - 0.195 - 1.8 * x**2 - 0.03 * (1.0 - v) - 0.010 * gaps
+    return _behind(sculpture, places, depth, 1.0, quads, 0.70, _TOOTH)
 
 
 def _wall(sculpture: Sculpture) -> Part:

@@ -37,6 +37,7 @@ _WHOLE: dict[str, Pose] = {
     "mouthShrugUpper": {"shrug_upper": 1.0},
     "browInnerUp": {"frontalis_inner": 1.0},
     "cheekPuff": {"puff": 1.0, "press": 0.35},
+    "tongueOut": {"tongue_out": 1.0, "jaw": 0.42, "lower_down": 0.5, "upper_up": 0.2},
 }
 _LEFT: dict[str, Pose] = {
     "eyeBlink": {"blink_l": 1.0},
@@ -95,21 +96,18 @@ _ARKIT: dict[str, Pose] = (
 )
 
 POSES: dict[str, dict[str, Pose]] = {
-    "arkit": {name: _ARKIT[name] for name in ARKIT_NAMES if name in _ARKIT},
+    "arkit": {name: _ARKIT[name] for name in ARKIT_NAMES},
     "visemes": {name: _VISEMES[name] for name in VISEMES},
     "expressions": {name: pose for name, pose in EXPRESSIONS.items() if pose},
 }
 """Set -> shape -> contractions, in the standard's order."""
 
 
-STILL = ("tongueOut",)
-"""Names of the standard's that the built-in faces cannot show: they have no tongue."""
-
-
 def face_shapes(face: DemoFace, sets: Sequence[str] = tuple(POSES)) -> dict[str, FloatArray]:
     """Positions (V, 3) float32 of the shapes of one or several sets, by name, in the standard's order.
 
-    As in the standard's set, mouthClose undoes what jawOpen does to the lips: alone it pushes one through the other.
+    Only the donor has a tongue: on the others tongueOut parts the lips alone. As in the standard's set, mouthClose
+    undoes what jawOpen does to the lips: alone it pushes one through the other.
 
     Parameters
     ----------

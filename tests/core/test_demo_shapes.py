@@ -6,11 +6,12 @@ import pytest
 from facial_retarget_addon import demo
 from facial_retarget_addon.core.errors import RetargetError
 from facial_retarget_addon.core.mpeg4.sets import SETS
+from facial_retarget_addon.core.parts.kinds import NAMED_KINDS
 from facial_retarget_addon.demo import chart
 from facial_retarget_addon.demo.acting import Acting
 from facial_retarget_addon.demo.cast import ACTOR
 from facial_retarget_addon.demo.muscles import contractions
-from facial_retarget_addon.demo.shape_sets import POSES, STILL
+from facial_retarget_addon.demo.shape_sets import POSES
 
 SEALED = (
     *("jawForward", "jawLeft", "jawRight", "mouthPucker", "mouthLeft", "mouthRight", "mouthSmileLeft", "cheekPuff"),
@@ -26,7 +27,7 @@ def actor():
 
 @pytest.fixture(scope="module")
 def faces(actor):
-    return [actor, *demo.targets(), demo.child()]
+    return [actor, *demo.targets(), demo.child(), demo.donor()]
 
 
 @pytest.fixture(scope="module")
@@ -50,7 +51,7 @@ def closed_mouth(face, shapes):
 
 def test_sets_have_the_standards_names_and_order(shapes):
     for name in POSES:
-        assert [*POSES[name]] == [shape for shape in SETS[name] if shape not in STILL]
+        assert [*POSES[name]] == [*SETS[name]]
     assert list(shapes["actor"]) == [shape for name in POSES for shape in POSES[name]]
 
 
@@ -118,7 +119,7 @@ def test_lids_follow_the_gaze(actor, shapes):
     assert opening["eyeSquintLeft"] < 0.6 * neutral
     assert opening["eyeWideLeft"] > 1.2 * neutral
     # The ball turns as one about its centre.
-    gaze = actor.gazes[0]
+    gaze = actor.moving[0]
     for name, way in (("eyeLookUpLeft", (0, 1)), ("eyeLookOutLeft", (1, 0)), ("eyeLookInLeft", (-1, 0))):
         before, after = (positions[gaze.rows].astype(float) for positions in (actor.face.mesh.vertices, own[name]))
         centre = ACTOR.eye_centre(1.0)
@@ -146,3 +147,18 @@ def test_left_and_right_are_mirror_images():
         other = name.replace("Left", "*").replace("Right", "Left").replace("*", "Right")
         mirrored = np.roll(moved[other], len(half), axis=0) * np.float32([-1, 1, 1])
         np.testing.assert_allclose(motion, mirrored, atol=2e-5, err_msg=name)
+
+
+def test_the_donor_has_a_tongue_and_lower_teeth(faces, shapes):
+    donor = faces[-1]
+    assert set(donor.face.named_parts) == set(NAMED_KINDS) - {"lashes", "brows", "moustache", "beard", "gums"}
+    neutral, own = donor.face.mesh.vertices, shapes["donor"]
+    first, last = donor.places.shape[0], len(neutral)
+    for name, positions in own.items():
+        still = np.setdiff1d(np.arange(first, last), np.concatenate([part.rows for part in donor.moving]))
+        np.testing.assert_allclose(positions[still], neutral[still], atol=1e-6, err_msg=name)
+    teeth, tongue = (part.rows for part in donor.moving[2:])
+    assert (own["jawOpen"] - neutral)[teeth, 1].max() < -0.1
+    lips = donor.face.points.positions(own["tongueOut"].astype(float))[donor.face.points.index(["2.3"])]
+    assert own["tongueOut"][tongue, 2].max() > lips[0, 2] + 0.15
+    assert own["jawOpen"][tongue, 2].max() < lips[0, 2]
