@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import pi
 from typing import Protocol
 
@@ -13,7 +13,7 @@ from ..core.arrays import Progress
 from ..core.errors import RetargetError
 from ..core.problem import Face
 from ..core.shapes.shape_set import ShapeSet
-from ..demo import DemoFace, actor
+from ..demo import DemoFace, donor
 from ..demo.shape_sets import face_shapes
 from ..files.mesh_file import MeshFile
 from .background import Steps, in_thread
@@ -23,8 +23,6 @@ from .meshes import new_face
 from .points import write_points
 from .shape_keys import find_key
 
-ACTOR_VERTICES = 12_000
-"""Vertices of the built-in actor where it lends its shapes."""
 STANDING = 0.5 * pi
 """The built-in faces stand along Y, Blender's along Z: a turn around X, in radians."""
 
@@ -92,8 +90,8 @@ class ActorDonor:
 
     @property
     def face(self) -> Face:
-        """Mesh and points; its examples are other things than shapes to clone."""
-        return Face(self.built.face.mesh, self.built.face.points)
+        """Mesh, points and named parts; its examples are other things than shapes to clone."""
+        return replace(self.built.face, examples={})
 
     @property
     def names(self) -> Sequence[str]:
@@ -137,7 +135,7 @@ def actor_steps(sets: Collection[str]) -> Steps[ActorDonor]:
 
     def make(progress: Progress) -> ActorDonor:
         progress(0.0, "making the built-in actor")
-        built = actor(ACTOR_VERTICES)
+        built = donor()
         progress(0.5, "acting its shapes")
         return ActorDonor(built, ShapeSet.of_positions(built.face.mesh.vertices, face_shapes(built, sorted(sets))))
 
