@@ -166,6 +166,10 @@ class FACIAL_RETARGET_PG_cloning(PropertyGroup):
         soft_max=1.0,
         description="How far left and right overlap on either side of the middle, in distances between the eyes",
     )
+    arkit_names: BoolProperty(
+        name="ARKit Names",
+        description="Shape keys that stand for one of ARKit's get its name: eyeBlink_L, EyeBlinkLeft",
+    )
     existing: EnumProperty(
         name="Existing Keys",
         items=[

@@ -38,6 +38,7 @@ class FACIAL_RETARGET_PT_cloning(RetargetTab, Panel):
         layout.prop(cloning, "sides")
         if cloning.sides == "SPLIT":
             layout.prop(cloning, "feather")
+        layout.prop(cloning, "arkit_names")
         layout.prop(cloning, "existing")
         column = layout.column(heading="Copy", align=True)
         column.prop(cloning, "copy_drivers")

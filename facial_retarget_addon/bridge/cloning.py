@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from glob import escape
 from itertools import chain
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from bpy.types import Context, Object, PropertyGroup
 
@@ -12,11 +13,12 @@ from ..core.arrays import Progress
 from ..core.errors import RetargetError
 from ..core.methods.settings import Settings
 from ..core.problem import Problem
-from ..core.shapes.choose import chosen
-from ..core.shapes.clone import clone_shapes
+from ..core.shapes.choose import EVERY, chosen
+from ..core.shapes.clone import ClonedShapes, clone_shapes
 from ..core.shapes.combinations import find_correctives
-from ..core.shapes.shape_set import ShapeSet
-from ..core.shapes.sides import SideNames, arkit_merges, has_side, left_share, merged, side_names, split
+from ..core.shapes.names import arkit_name
+from ..core.shapes.prepare import Preparation, prepare_shapes
+from ..core.shapes.sides import arkit_merges, has_side, left_share, side_names
 from .background import Steps, in_thread, part
 from .clone_report import write_report
 from .clones import Clones, Copying, Origin, plan_names, write_clones
@@ -53,11 +55,10 @@ def clone_steps(context: Context) -> Steps[Outcome]:
     settings = read_method_settings(task, cloning.method)
     faces = target_faces(context)
     donor = yield from part(donor_steps(task), 0.0, MAKING)
-    names = chosen(donor.names, patterns(cloning.keep) or ("*",), patterns(cloning.drop))
+    names = chosen(donor.names, patterns(cloning.keep) or EVERY, patterns(cloning.drop))
     heads = [read_head(face) for face in faces]
     check_heads(donor, heads)
-    halve = halver(cloning)
-    works = [cloner(donor, head, names, cloning.method, settings, halve) for head in heads]
+    works = [cloner(donor, head, names, cloning.method, settings, cloning) for head in heads]
     made = yield from part(computed(heads, works), MAKING, COMPUTING)
     yield MAKING + COMPUTING, "Writing"
     plans = [plan_names(clones, cloning.existing) for clones in made]
@@ -94,51 +95,53 @@ def named_warnings(made: Sequence[Clones]) -> list[str]:
     return [f"{clones.head.name}: {warning}" for clones in made for warning in clones.warnings]
 
 
-Halving = Callable[[ShapeSet, Head], tuple[ShapeSet, dict[str, Origin]]]
-"""Shapes of a head -> the same in halves or wholes, and where each one comes from."""
-
-
-def halver(cloning: PropertyGroup) -> Halving:
-    """What the panel wants done with the sides of shapes."""
-    sides, feather = cloning.sides, cloning.feather
-
-    def halve(shapes: ShapeSet, head: Head) -> tuple[ShapeSet, dict[str, Origin]]:
-        origins = {name: Origin((name,)) for name in shapes.names}
-        if sides == "MERGE":
-            recipes = arkit_merges(shapes.names)
-            return merged(shapes, recipes), origins | {whole: Origin(halves) for whole, halves in recipes.items()}
-        if sides == "SPLIT":
-            left, right = side_names(shapes.names)
-            for name in shapes.names:
-                if not has_side(name):
-                    origins |= {name + left: Origin((name,), "LEFT"), name + right: Origin((name,), "RIGHT")}
-            share = left_share(head.face.mesh, head.face.points, feather)
-            return split(shapes, share, SideNames(left, right)), origins
-        return shapes, origins
-
-    return halve
-
-
 def cloner(
-    donor: Donor, head: Head, names: Sequence[str], method: str, settings: Settings, halve: Halving
+    donor: Donor, head: Head, names: Sequence[str], method: str, settings: Settings, cloning: PropertyGroup
 ) -> Callable[[Progress], Clones]:
     """What clones some of a donor's shapes onto a head, on a thread: all Blender data is read here, before it runs.
 
     Correctives are cloned together with the shapes that they need, whether these are wanted or not.
     """
-    correctives = [one for one in find_correctives(donor.names) if one.name in names]
-    needed = {need for one in correctives for need in one.needs}
+    needed = {need for one in find_correctives(donor.names) if one.name in names for need in one.needs}
     shapes = donor.shapes([name for name in donor.names if name in names or name in needed], head.groups)
+    how = preparation(names, cloning)
     problem = Problem(donor.face, head.face, make_caster=available_caster())
 
     def clone(progress: Progress) -> Clones:
-        cloned = clone_shapes(method, problem, settings, shapes, correctives, progress).only(names)
-        shown, origins = halve(cloned.shapes, head)
-        rows = {row["name"]: row for row in cloned.rows}
-        figures = {name: rows[origins[name].names[0]] for name in shown.names}
-        return Clones(head, shown, origins, figures, cloned.report)
+        share = left_share(donor.face.mesh, donor.face.points, how.feather) if how.split else None
+        ready = prepare_shapes(shapes, how, share)
+        cloned = clone_shapes(method, problem, settings, ready.shapes, ready.correctives, progress).only(ready.wanted)
+        return Clones(head, cloned.shapes, origins(names, how), row_of(cloned), cloned.report)
 
     return clone
+
+
+def row_of(cloned: ClonedShapes) -> dict[str, dict[str, Any]]:
+    """Name of a shape -> its row."""
+    return {row["name"]: row for row in cloned.rows}
+
+
+def preparation(names: Sequence[str], cloning: PropertyGroup) -> Preparation:
+    """What the panel wants made of some of a donor's shapes."""
+    return Preparation(
+        keep=tuple(escape(name) for name in names),
+        arkit_wholes=cloning.sides == "MERGE",
+        split=EVERY if cloning.sides == "SPLIT" else (),
+        feather=cloning.feather,
+        arkit_names=cloning.arkit_names,
+    )
+
+
+def origins(names: Sequence[str], how: Preparation) -> dict[str, Origin]:
+    """What `prepare_shapes` may make of some shapes -> where it comes from."""
+    wholes = arkit_merges(names) if how.arkit_wholes else {}
+    found = {name: Origin((name,)) for name in names} | {whole: Origin(halves) for whole, halves in wholes.items()}
+    if how.split:
+        left, right = side_names(names)
+        halves = {name: origin for name, origin in found.items() if not has_side(name)}
+        found |= {name + left: Origin(origin.names, "LEFT") for name, origin in halves.items()}
+        found |= {name + right: Origin(origin.names, "RIGHT") for name, origin in halves.items()}
+    return found | {arkit_name(name) or name: origin for name, origin in found.items() if how.arkit_names}
 
 
 def patterns(text: str) -> tuple[str, ...]:

@@ -20,7 +20,7 @@ from ..core.shapes.sides import left_share
 from .background import Steps, part
 from .clone_report import write_report
 from .clones import Clones, Origin, fingerprint, write_shapes
-from .cloning import COMPUTING, MAKING, check_heads, computed, named_warnings, target_faces
+from .cloning import COMPUTING, MAKING, check_heads, computed, named_warnings, row_of, target_faces
 from .donors import Donor, donor_steps
 from .heads import Head, read_head
 from .raycast import available_caster
@@ -147,7 +147,7 @@ def solver(
         shapes = ShapeSet(tuple(wanted), moves)
         solved = resolve_shapes(method, problem, settings, shapes, corrected, correctives, progress)
         solved = solved.only([name for name in origins if name not in corrected.names])
-        return Clones(head, solved.shapes, origins, {row["name"]: row for row in solved.rows}, solved.report)
+        return Clones(head, solved.shapes, origins, row_of(solved), solved.report)
 
     return solve
 

@@ -160,6 +160,20 @@ assert 'key_blocks["disgust_R"].value' in {d.data_path for d in target.data.shap
 context.scene.frame_set(10)
 assert made["joy_L"].value == made["joy_R"].value == keys["joy"].value
 
+# ARKit's names and wholes: of halves in another spelling.
+for name, old in (("browInnerUp_L", "joy"), ("browInnerUp_R", "anger"), ("Jaw_Open", "surprise")):
+    part("bridge.examples").write_example(source, name, key_shape(source, old))
+cloning.keep, cloning.sides, cloning.arkit_names = "browInnerUp*, Jaw*", "MERGE", True
+clone()
+assert [key.name for key in made][-2:] == ["browInnerUp", "jawOpen"], list(made)
+moved = key_shape(target, "browInnerUp") - still
+np.testing.assert_allclose(moved, expected.shapes["joy"] + expected.shapes["anger"], atol=2e-5)
+assert [origin.name for origin in target.facial_retarget.cloned["browInnerUp"].origins] == [
+    "browInnerUp_L",
+    "browInnerUp_R",
+]
+cloning.keep, cloning.sides, cloning.arkit_names = "joy, disgust", "AS_THEY_ARE", False
+
 # Without drivers and animation.
 target.shape_key_clear()
 cloning.copy_drivers = cloning.copy_animation = False
