@@ -9,21 +9,21 @@ from ..problem import Face
 from .eyes import EyeTurns, pair_eyeballs
 from .follow import Following, fit_following
 from .known_head import know_head
+from .lash_turns import LashTurns, fit_lash_turns
 from .mouth import Mouth, fit_mouth
-from .own_motion import OwnMotion, fit_own_motion
 from .report import FOLLOWS, part_rows
 
 
 class CarriedParts(NamedTuple):
     """What moves beside the skin.
 
-    following : what rides on the target's skin. own : what it does beyond that, as the source's does.
+    following : what rides on the target's skin. lashes : how they turn beyond that, as the source's do.
     mouth : teeth, gums and tongue. eyes : eyeballs.
     rows : what each part does. moves : (Vt,) which vertices move.
     """
 
     following: Following
-    own: OwnMotion | None
+    lashes: LashTurns | None
     mouth: Mouth | None
     eyes: EyeTurns
     rows: list[dict[str, Any]]
@@ -31,7 +31,7 @@ class CarriedParts(NamedTuple):
 
     def add_to(self, displacements: FloatArray, frames: FloatArray) -> FloatArray:
         """Target displacements (F, Vt, 3) of the skin with the parts' added, in place, for source frames (F, Vs, 3)."""
-        for moving in (self.own, self.mouth, self.eyes):
+        for moving in (self.lashes, self.mouth, self.eyes):
             if moving is not None:
                 moving.add_to(displacements, frames)
         return self.following.add_to(displacements)
@@ -56,4 +56,4 @@ def carried_parts(source: Face, target: Face, own: BoolArray) -> CarriedParts:
         moves[mouth.moves()] = True
         does |= mouth.does()
     rows = part_rows(theirs.parts, moves, own, does)
-    return CarriedParts(following, fit_own_motion(ours, theirs, free), mouth, eyes, rows, moves)
+    return CarriedParts(following, fit_lash_turns(ours, theirs, free), mouth, eyes, rows, moves)

@@ -24,6 +24,21 @@ ROOTS = 0.015
 """A part is rooted where it comes as near to the skin as it does anywhere, and this much, in eye separations."""
 
 
+class Tips(NamedTuple):
+    """What hangs on the lids of an eye and is no root.
+
+    vertices : (n,). lever : (n, 3) from its roots, in the head's axes.
+    lid : (n,) 1 for what hangs on the upper lid, -1 on the lower, between for both.
+    along : (n,) from 0 at the eye's outer corner to 1 at its inner one.
+    """
+
+    side: str
+    vertices: IntArray
+    lever: FloatArray
+    lid: FloatArray
+    along: FloatArray
+
+
 class Riding(NamedTuple):
     """How parts ride on the skin, in the head's axes.
 
@@ -31,12 +46,14 @@ class Riding(NamedTuple):
     spread : (V, V) how much of each root a vertex takes; 1 on the diagonal for roots and all that does not ride.
     place : (V, V) the roots' places on the skin.
     turns : (3V, 3V) what the skin's displacements add by turning what is around an eye.
+    tips : of each eye.
     """
 
     riders: IntArray
     spread: sp.csr_matrix
     place: sp.csr_matrix
     turns: sp.csr_matrix
+    tips: tuple[Tips, ...]
 
     def matrix(self) -> sp.csr_matrix:
         """(3V, 3V) displacements of the skin to those of the parts."""
@@ -58,7 +75,7 @@ def ride(head: KnownHead, parts: Sequence[Part]) -> Riding:
     riding = [part for part in parts if part.kind in ON_SKIN]
     if not riding:
         nothing = sp.csr_matrix((count, count)), sp.csr_matrix((3 * count, 3 * count))
-        return Riding(np.empty(0, np.int64), sp.identity(count, format="csr"), *nothing)
+        return Riding(np.empty(0, np.int64), sp.identity(count, format="csr"), *nothing, ())
     skin = np.zeros(count, bool)
     skin[head.skin] = True
     asked = np.concatenate([part.vertices for part in riding])
@@ -77,60 +94,88 @@ def ride(head: KnownHead, parts: Sequence[Part]) -> Riding:
     place = place_matrix(corners, weights, count)
     lashes = np.zeros(count, bool)
     lashes[[vertex for part in riding if part.kind == AROUND_EYE for vertex in part.vertices]] = True
-    return Riding(np.sort(asked), spread, place, _turned_by_lids(head, lashes & ~known, spread, place))
+    hairs = _hairs(head, lashes & ~known, spread, place)
+    return Riding(np.sort(asked), spread, place, _turned_by_lids(head, hairs, place), tuple(map(_tips, hairs)))
 
 
-def _turned_by_lids(head: KnownHead, lashes: BoolArray, spread: sp.csr_matrix, place: sp.csr_matrix) -> sp.csr_matrix:
-    """(3V, 3V) what the skin's displacements add to the lashes' by turning them, in the head's axes.
+class _Hairs(NamedTuple):
+    """What hangs on the lids of an eye, tip by root.
 
-    A root at r from the middle of the eyeball that goes by d, as seen from the corners of the eye, turns by r x d / r².
-    What hangs on it turns about it; the less, the more it hangs on both lids. An eye without points at its corners
-    turns nothing.
+    tip, root : (n,) vertices. share : (n,) how much the tip takes of the root.
+    away : (n, 3) from root to tip. radius : (n, 3) from the eyeball's middle to the root's place on the skin.
+    lid : (n,) 1 for the upper, -1 for the lower, between where a tip hangs on both.
+    along : (n,) where the root lies, from 0 at the eye's outer corner to 1 at its inner one.
+    """
+
+    side: str
+    tip: IntArray
+    root: IntArray
+    share: FloatArray
+    away: FloatArray
+    radius: FloatArray
+    lid: FloatArray
+    along: FloatArray
+
+
+def _hairs(head: KnownHead, lashes: BoolArray, spread: sp.csr_matrix, place: sp.csr_matrix) -> list[_Hairs]:
+    """What hangs on each eye that has points at its corners.
 
     Parameters
     ----------
-    lashes : (V,) vertices that shall turn. spread, place : as in `Riding`.
+    lashes : (V,) vertices that hang. spread, place : as in `Riding`.
     """
-    places, count = head.places, len(lashes)
-    corners = {side: EYES[side][2:4] for side in head.eyeballs if set(EYES[side][2:4]) <= set(head.points.names)}
-    added = sp.csr_matrix((3 * count, 3 * count))
-    if not corners:
-        return added
-    centres = np.stack([head.axes @ head.eyeballs[side].centre for side in corners])
+    sides = [side for side in head.eyeballs if set(EYES[side][2:4]) <= set(head.points.names)]
+    if not sides:
+        return []
+    centres = np.stack([head.axes @ head.eyeballs[side].centre for side in sides])
     hangs = (sp.diags(lashes.astype(float)) @ spread).tocsr()
     hangs.eliminate_zeros()
     hangs = hangs.tocoo()
-    eye = cKDTree(centres).query(places[hangs.row])[1]
-    for k, names in enumerate(corners.values()):
+    eye = cKDTree(centres).query(head.places[hangs.row])[1]
+    on_skin = place @ head.places
+    found = []
+    for k, side in enumerate(sides):
         tip, root, share = hangs.row[eye == k], hangs.col[eye == k], hangs.data[eye == k]
-        on_skin = (place @ places)[root]
-        share = share * _on_one_lid(head.points.subset(names).positions(places), on_skin, tip, share, count)
-        away, radius = places[tip] - places[root], on_skin - centres[k]
+        outer, inner = head.points.subset(EYES[side][2:4]).positions(head.places)
+        across, down = inner - outer, on_skin[root] - outer
+        above = np.where((down[:, 1] * across[0] - down[:, 0] * across[1]) * across[0] > 0, 1.0, -1.0)
+        lid = np.bincount(tip, share * above, len(lashes)).astype(np.float64)[tip]
+        along = np.clip(down @ across / (across @ across), 0.0, 1.0)
+        away = head.places[tip] - head.places[root]
+        found.append(_Hairs(side, tip, root, share, away, on_skin[root] - centres[k], lid, along))
+    return found
+
+
+def _tips(hairs: _Hairs) -> Tips:
+    """Roots of each tip taken together."""
+    vertices, of = np.unique(hairs.tip, return_inverse=True)
+    total = np.bincount(of, hairs.share)
+    lever = np.stack([np.bincount(of, hairs.share * x) for x in hairs.away.T], axis=1).astype(np.float64)
+    along = np.bincount(of, hairs.share * hairs.along) / total
+    lid = np.bincount(of, hairs.share * hairs.lid) / total
+    return Tips(hairs.side, vertices, lever, lid, along)
+
+
+def _turned_by_lids(head: KnownHead, hairs: Sequence[_Hairs], place: sp.csr_matrix) -> sp.csr_matrix:
+    """(3V, 3V) what the skin's displacements add to the lashes' by turning them, in the head's axes.
+
+    A root at r from the middle of the eyeball that goes by d, as seen from the corners of the eye, turns by r x d / r².
+    What hangs on it turns about it; the less, the more it hangs on both lids.
+    """
+    count = place.shape[0]
+    added = sp.csr_matrix((3 * count, 3 * count))
+    for eye in hairs:
         # (r x d) x u = (r . u) d - r (u . d)
-        along = np.einsum("ni,ni->n", radius, away)[:, None, None] * np.eye(3)
-        turns = along - radius[:, :, None] * away[:, None, :]
-        turns *= (share / np.einsum("ni,ni->n", radius, radius))[:, None, None]
+        along = np.einsum("ni,ni->n", eye.radius, eye.away)[:, None, None] * np.eye(3)
+        turns = along - eye.radius[:, :, None] * eye.away[:, None, :]
+        turns *= (eye.share * eye.lid**2 / np.einsum("ni,ni->n", eye.radius, eye.radius))[:, None, None]
         rows, columns = np.broadcast_arrays(
-            3 * tip[:, None, None] + np.arange(3)[:, None], 3 * root[:, None, None] + np.arange(3)
+            3 * eye.tip[:, None, None] + np.arange(3)[:, None], 3 * eye.root[:, None, None] + np.arange(3)
         )
         turning = sp.csr_matrix((turns.ravel(), (rows.ravel(), columns.ravel())), shape=added.shape)
         rooted = np.zeros(count)
-        rooted[root] = 1.0
-        still = sp.csr_matrix(head.points.subset(names).matrix(count).mean(axis=0))
+        rooted[eye.root] = 1.0
+        still = sp.csr_matrix(head.points.subset(EYES[eye.side][2:4]).matrix(count).mean(axis=0))
         seen = place - sp.csr_matrix(rooted[:, None]) @ still
         added = added + turning @ sp.kron(seen, sp.identity(3), format="csr")
     return added.tocsr()
-
-
-def _on_one_lid(corners: FloatArray, roots: FloatArray, tips: IntArray, share: FloatArray, count: int) -> FloatArray:
-    """(n,) 1 where a tip hangs on one lid alone, 0 where it hangs on both alike, between them a square.
-
-    Parameters
-    ----------
-    corners : (2, 3) of the eye, in the head's axes. roots : (n, 3) where each tip (n,) hangs by its share (n,).
-    """
-    (x, y), (across, rise) = corners[0, :2], corners[1, :2] - corners[0, :2]
-    upper = np.where(across * (roots[:, 1] - y) > rise * (roots[:, 0] - x), 1.0, -1.0)
-    balance = np.bincount(tips, share * upper, count).astype(np.float64)[tips]
-    square: FloatArray = np.square(balance)
-    return square
