@@ -18,6 +18,7 @@ from .errors import RetargetError
 from .methods.settings import LevelSettings, Settings
 from .mpeg4.regions import OWN_PARTS
 from .parts.kinds import NAMED_KINDS
+from .parts.lacking import lacking_parts
 from .points import FeaturePoints, common_names
 from .problem import Face, Problem
 from .rigid import fit_rigid
@@ -84,6 +85,8 @@ def warnings(problem: Problem, frames: FloatArray | None, settings: Settings) ->
         found.append(f"examples {name!r} and {other!r} are identical on the target")
     if frames is not None and not _moves(problem.source, frames):
         found.append("the source does not move: all its frames are the neutral face")
+    if frames is not None:
+        found += lacking_parts(problem.source, problem.target, frames)
     return found
 
 

@@ -75,7 +75,7 @@ class LevelRetargeter:
         if self._parts is not None:
             moves |= self._parts.moves
             rows = self._parts.rows
-        still, named = still_components(self._pair.target, moves)
+        still, named = still_components(self._pair.target, moves, rows)
         return {
             **report,
             "parts": rows,

@@ -30,6 +30,7 @@ from facial_retarget_addon.core.parts.kinds import (
     UPPER,
 )
 from facial_retarget_addon.core.parts.known_head import know_head
+from facial_retarget_addon.core.parts.lacking import lacking_parts
 from facial_retarget_addon.core.points import FeaturePoints
 from facial_retarget_addon.core.problem import Face, Problem
 from facial_retarget_addon.core.rigid import fit_rigid
@@ -547,3 +548,36 @@ def test_the_published_method_turns_no_eyeball(makehuman: Head) -> None:
     found = fitted.frames(looking(makehuman, TURN))[0]
     np.testing.assert_allclose(found, makehuman.mesh.vertices, atol=1e-5)
     assert len(fitted.report["still_components"]) == len({*makehuman.mesh.components}) - 1
+
+
+# ---- what is not there --------------------------------------------------------------------------
+
+
+def test_what_the_target_lacks_is_named_if_the_source_moves_it(ict: Head, makehuman: Head) -> None:
+    gone = np.isin(makehuman.names, ["tongue", "teeth_lower", "lashes_L", "lashes_R"])
+    bare = makehuman.mesh.faces[~gone[makehuman.mesh.faces[:, 0]]]
+    without = Face(TriMesh(makehuman.mesh.vertices, bare), makehuman.points)
+    source = Face(ict.mesh, ict.points)
+    opened, blink = ((ict.mesh.vertices + ict.moves[name])[None] for name in ("jawOpen", "eyeBlink_L"))
+    ends = "was found on the target: what the source's does has no counterpart"
+    assert lacking_parts(source, without, opened) == [f"no lower row of teeth {ends}"]
+    assert lacking_parts(source, without, blink) == [f"no part around the eyes (lashes) {ends}"]
+    assert lacking_parts(source, Face(makehuman.mesh, makehuman.points), np.concatenate([opened, blink])) == []
+    speaks = Face(makehuman.mesh, makehuman.points)
+    out = (makehuman.mesh.vertices + tongue_out(makehuman))[None]
+    assert lacking_parts(speaks, without, out) == [f"no tongue {ends}"]
+    gums = np.flatnonzero(makehuman.names == "teeth_upper")
+    welded = Face(without.mesh, makehuman.points, named_parts={"gums": gums[:1]})
+    assert lacking_parts(speaks, welded, out) == []
+
+
+def test_the_robot_and_the_ogre_are_survived(shared_data: Path, ict: Head) -> None:
+    for name in ("robot", "ogre"):
+        archive = np.load(shared_data / f"{name}.npz")
+        mesh = TriMesh(archive["vertices"], archive["tris"])
+        marks = FeaturePoints(("9.3",), np.zeros((1, 3), int), np.array([[1.0, 0.0, 0.0]]))
+        carried = carried_parts(Face(ict.mesh, ict.points), Face(mesh, marks), np.zeros(len(mesh.vertices), bool))
+        rest = ict.mesh.vertices.astype(np.float32)[None]
+        moved = carried.add_to(np.zeros((1, *mesh.vertices.shape), np.float32), rest)
+        np.testing.assert_array_equal(moved, 0.0)
+        assert {row["kind"] for row in carried.rows} <= {OTHER}

@@ -94,7 +94,7 @@ class FeaturePointRetargeter:
         if self._problem.source.examples:
             warnings.append("examples are not used by this method")
         moves = moved_vertices(self._motion.deformer) | self._eyes.turning()
-        still, named = still_components(self._target, moves)
+        still, named = still_components(self._target, moves, self._motion.report["parts"])
         warnings += named
         return {
             "source": {"vertices": len(self._source.vertices), "faces": len(self._source.faces)},

@@ -47,13 +47,20 @@ def part_rows(
     ]
 
 
-def still_components(mesh: TriMesh, moves: BoolArray) -> tuple[list[dict[str, int]], list[str]]:
-    """Components of which no vertex moves, (V,), and the warning that names them, if there are any."""
+def still_components(
+    mesh: TriMesh, moves: BoolArray, rows: Sequence[Mapping[str, Any]]
+) -> tuple[list[dict[str, int]], list[str]]:
+    """Components of which no vertex moves, (V,), and the warning that names them, if there are any.
+
+    rows : what is known of the parts, see `part_rows`.
+    """
     count = mesh.components.max() + 1
     still = np.bincount(mesh.components, moves, count) == 0
     size = np.bincount(mesh.components, minlength=count)
     first = np.unique(mesh.components, return_index=True)[1]
     found = [{"vertices": int(size[k]), "first_vertex": int(first[k])} for k in np.flatnonzero(still)]
     total = sum(part["vertices"] for part in found)
-    warning = f"{len(found)} parts of the target ({total} vertices) hold no feature point and stay put"
+    kinds = ", ".join(dict.fromkeys(row["kind"] for row in rows if row["does"] == "stays"))
+    known = f" ({kinds})" if kinds else ""
+    warning = f"{len(found)} parts of the target ({total} vertices) hold no feature point and stay put{known}"
     return found, [warning] if found else []
