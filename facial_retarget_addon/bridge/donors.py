@@ -17,7 +17,7 @@ from ..demo import DemoFace, donor
 from ..demo.shape_sets import face_shapes
 from ..files.mesh_file import MeshFile
 from .background import Steps, in_thread
-from .heads import Head, read_head
+from .heads import Head, read_head, write_named_parts
 from .key_sets import KeyTraits, read_traits, write_keys
 from .meshes import new_face
 from .points import write_points
@@ -154,6 +154,7 @@ def add_actor_steps(context: Context, sets: Collection[str]) -> Steps[Object]:
     made = new_face("Actor", MeshFile(built.face.mesh, built.counts, built.corners, built.uvs[built.corners]))
     made.rotation_euler.x = STANDING
     write_points(made, built.face.points)
+    write_named_parts(made, built.face.named_parts)
     write_keys(made, dict(zip(donor.names, donor.all_shapes.displacements, strict=True)), {})
     context.scene.facial_retarget.source = made
     return made

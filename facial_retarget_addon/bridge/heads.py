@@ -11,9 +11,10 @@ from bpy.types import Object
 from ..core.arrays import FloatArray, IntArray
 from ..core.errors import RetargetError
 from ..core.mesh import TriMesh
+from ..core.parts.kinds import NAMED_KINDS, NamedParts
 from ..core.points import FeaturePoints
 from ..core.problem import Face
-from .key_sets import check_relative, key_names, masked_displacement
+from .key_sets import check_relative, group_weights, key_names, masked_displacement
 from .meshes import read_positions, read_surface, stretch
 from .points import read_points
 from .shape_keys import find_key
@@ -107,16 +108,11 @@ def read_head(face: Object) -> Head:
         np.concatenate([mesh.faces + first for mesh, first in zip(meshes, starts, strict=False)]),
         np.concatenate([mesh.polygons + first for mesh, first in zip(meshes, polygons, strict=False)]),
     )
-    named: dict[str, list[IntArray]] = {}
-    for part in face.facial_retarget.parts:
-        if part.role != BY_PLACE and part.thing in things:
-            row = things.index(part.thing)
-            named.setdefault(part.role, []).append(np.arange(starts[row], starts[row + 1]))
     return Head(
         things,
         starts,
         np.stack([matrix[:3, :3] for matrix in matrices]),
-        Face(mesh, _points(things, starts), named_parts={role: np.concatenate(held) for role, held in named.items()}),
+        Face(mesh, _points(things, starts), named_parts=_named_parts(things, starts)),
         tuple(part.thing for part in face.facial_retarget.parts if part.role == BY_PLACE and part.thing in things),
     )
 
@@ -153,6 +149,27 @@ def _own_to_head(face: Object, thing: Object) -> FloatArray:
 def _mesh(thing: Object, matrix: FloatArray) -> TriMesh:
     places = read_positions(thing.data).astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
     return read_surface(thing, places, bool(np.linalg.det(matrix[:3, :3]) < 0)).mesh
+
+
+def _named_parts(things: Sequence[Object], starts: IntArray) -> dict[str, IntArray]:
+    """What the artist calls a part -> vertices (n,): objects by their roles, others by vertex groups of such a name."""
+    roles = {part.thing: part.role for part in things[0].facial_retarget.parts if part.role != BY_PLACE}
+    named: dict[str, list[IntArray]] = {}
+    for thing, first, last in zip(things, starts, starts[1:], strict=False):
+        if thing in roles:
+            named.setdefault(roles[thing], []).append(np.arange(first, last))
+            continue
+        for name in (name for name in NAMED_KINDS if name in thing.vertex_groups):
+            held = np.flatnonzero(group_weights(thing, name) > 0)
+            if len(held):
+                named.setdefault(name, []).append(first + held)
+    return {name: np.concatenate(held) for name, held in named.items()}
+
+
+def write_named_parts(thing: Object, named: NamedParts) -> None:
+    """Name parts of an object by vertex groups."""
+    for name, vertices in named.items():
+        thing.vertex_groups.new(name=name).add(vertices.tolist(), 1.0, "REPLACE")
 
 
 def _points(things: Sequence[Object], starts: IntArray) -> FeaturePoints:

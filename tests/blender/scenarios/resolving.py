@@ -1,5 +1,8 @@
 """Re-solve: corrected keys stay as they are and teach the others; marks, changes found, halves, several objects."""
 
+import sys
+from pathlib import Path
+
 import bpy
 import numpy as np
 from stage import demo_object, donor_pair, empty_scene, key_shape, part, refused, snapshot
@@ -77,6 +80,14 @@ operators.resolve_shapes()
 third = kept()
 assert np.array_equal(third["fear"], second["fear"])
 assert np.array_equal(third["anger"], (basis + 0.5 * (second["anger"] - basis)).astype(np.float32))
+assert sorted(entry.name for entry in target.facial_retarget.cloned if entry.corrected) == ["anger", "fear", "joy"]
+
+# All this is kept in the file, and nothing looks changed after loading it.
+bpy.ops.wm.save_as_mainfile(filepath=str(Path(sys.argv[1]) / "corrected.blend"))
+bpy.ops.wm.open_mainfile(filepath=str(Path(sys.argv[1]) / "corrected.blend"))
+context, task = bpy.context, bpy.context.scene.facial_retarget
+source, target, cloning = task.source, task.target, task.cloning
+operators.find_corrected()
 assert sorted(entry.name for entry in target.facial_retarget.cloned if entry.corrected) == ["anger", "fear", "joy"]
 
 # Cloning anew forgets the corrections.
