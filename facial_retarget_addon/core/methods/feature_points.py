@@ -94,7 +94,7 @@ class FeaturePointRetargeter:
         if self._problem.source.examples:
             warnings.append("examples are not used by this method")
         moves = moved_vertices(self._motion.deformer) | self._eyes.turning()
-        still, named = still_components(self._target, moves, self._motion.report["parts"])
+        still, named = still_components(self._target, moves, self._motion.parts)
         warnings += named
         return {
             "source": {"vertices": len(self._source.vertices), "faces": len(self._source.faces)},
@@ -147,10 +147,8 @@ class _FapMotion:
         )
         self.deformer = self._face.deformer
         self.warnings = self._face.report["warnings"]
-        self.report = {
-            "fapu": {"source": fapu.taken, "target": self._face.fapu.taken},
-            "parts": self._face.report["parts"],
-        }
+        self.parts: list[dict[str, Any]] = self._face.report["parts"]
+        self.report = {"fapu": {"source": fapu.taken, "target": self._face.fapu.taken}, "parts": self.parts}
 
     def frames(self, displacements: FloatArray) -> FloatArray:
         """Target positions (F, Vt, 3) of displacements (F, P, 3) of the source's points."""
@@ -181,14 +179,14 @@ class _FreeMotion:
         self.deformer: PointDeformer = fit_deformer(
             target, target_points, self._axes[1], acting, settings.variant, named=named
         )
-        parts: list[dict[str, Any]] = []
+        self.parts: list[dict[str, Any]] = []
         if settings.variant == "default":
-            self.deformer, parts = with_parts(target, target_points, self.deformer, turning, named)
+            self.deformer, self.parts = with_parts(target, target_points, self.deformer, turning, named)
         balls = find_eyeballs(source, source_points, self._axes[0], problem.source.named_parts)
         self._lids = _lid_pairs(source, source_points, balls, self.deformer.lids)
         self._neutral = target.vertices.astype(np.float32)
         self.warnings = list(self.deformer.warnings)
-        self.report = {"fapu": {"source": fapus[0].taken, "target": fapus[1].taken}, "parts": parts}
+        self.report = {"fapu": {"source": fapus[0].taken, "target": fapus[1].taken}, "parts": self.parts}
 
     def frames(self, displacements: FloatArray) -> FloatArray:
         """Target positions (F, Vt, 3) of displacements (F, P, 3) of the source's points."""

@@ -117,9 +117,8 @@ class MotionCloningRetargeter:
     def report(self) -> Mapping[str, Any]:
         """Figures of the fit, as plain data."""
         source, target = self._problem.source, self._problem.target
-        still, warnings = still_components(
-            target.mesh, self._moves | self._parts.moves | self._taught, self._parts.rows
-        )
+        moves = self._moves | self._parts.moves | self._taught
+        still, warnings = still_components(target.mesh, moves, self._parts.rows)
         return {
             "source": {"vertices": len(source.mesh.vertices), "faces": len(source.mesh.faces)},
             "target": {"vertices": len(target.mesh.vertices), "faces": len(target.mesh.faces)},
