@@ -98,6 +98,12 @@ def _add_clone_arguments(clone: argparse.ArgumentParser) -> None:
     files = ("NEUTRAL", "POINTS", "SHAPES")
     clone.add_argument("--source", type=Path, nargs=3, metavar=files, help="the head that has the shapes")
     clone.add_argument(
+        "--actor",
+        action="append",
+        metavar="SET",
+        help="in place of a source: arkit, visemes or expressions of the built-in actor; may be given several times",
+    )
+    clone.add_argument(
         "--target",
         type=Path,
         nargs=3,
@@ -214,6 +220,7 @@ def _shapes(arguments: argparse.Namespace) -> int:
 
 
 def _clone(arguments: argparse.Namespace) -> int:
+    from .demonstration import acting_donor
     from .files.clone_job import read_clone_job
     from .files.clone_task import run_clone_job
 
@@ -223,13 +230,14 @@ def _clone(arguments: argparse.Namespace) -> int:
         raise RetargetError(f"a clone job says all by itself, but --{', --'.join(flags)} came with {arguments.job}")
     if job is None:
         job = _clone_job_of(arguments)
-    for target, report in zip(job.targets, run_clone_job(job, _progress(arguments)), strict=True):
+    reports = run_clone_job(job, _progress(arguments), acting_donor)
+    for target, report in zip(job.targets, reports, strict=True):
         _warn(f"{target.face.neutral.name}: {text}" for text in report["warnings"])
         print(f"{target.shapes}: {len(report['shapes'])} shapes")
     return 0
 
 
-_CLONE_FLAGS = ("source", "target", "method", "keep", "drop", "page")
+_CLONE_FLAGS = ("source", "actor", "target", "method", "keep", "drop", "page")
 
 
 def _clone_job_of(arguments: argparse.Namespace) -> CloneJob:
@@ -237,21 +245,26 @@ def _clone_job_of(arguments: argparse.Namespace) -> CloneJob:
     from .core.methods import METHODS
     from .core.methods.settings import SETTINGS
     from .core.shapes.prepare import Preparation
-    from .files.clone_job import METHOD, CloneJob, TargetFiles
+    from .files.clone_job import METHOD, BuiltInActor, CloneJob, SourceFiles, TargetFiles
     from .files.job import FaceFiles
 
     method = arguments.method or METHOD
     if method not in METHODS:
         raise RetargetError(f"--method {method} is unknown, expected one of {', '.join(METHODS)}")
-    if arguments.source is None or not arguments.target:
-        raise RetargetError("clone expects a job file, or --source and at least one --target")
+    if (arguments.source is None) == (arguments.actor is None) or not arguments.target:
+        raise RetargetError("clone expects a job file, or one of --source and --actor and at least one --target")
     targets = []
     for neutral, points, shapes in arguments.target:
         beside = {key: shapes.with_suffix(end) for key, end in _BESIDE.items()} if arguments.page else {}
         targets.append(TargetFiles(FaceFiles(neutral, points), shapes, **beside))
-    neutral, points, shapes = arguments.source
+    source: SourceFiles | BuiltInActor
+    if arguments.source is None:
+        source = BuiltInActor(tuple(arguments.actor))
+    else:
+        neutral, points, shapes = arguments.source
+        source = SourceFiles(FaceFiles(neutral, points), shapes)
     how = Preparation(tuple(arguments.keep or ("*",)), tuple(arguments.drop or ()))
-    return CloneJob(FaceFiles(neutral, points), shapes, tuple(targets), how, method, SETTINGS[method]())
+    return CloneJob(source, tuple(targets), how, method, SETTINGS[method]())
 
 
 _BESIDE = {"page": ".html", "sheet": ".png", "report": ".report.json"}

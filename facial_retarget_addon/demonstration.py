@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from .core.arrays import Progress, no_progress
 from .core.errors import RetargetError
 from .core.methods.settings import HierarchicalSettings
-from .demo import DemoFace, actor, performance, targets
+from .core.problem import Face
+from .core.shapes.shape_set import ShapeSet
+from .demo import DemoFace, actor, donor, face_shapes, performance, targets
 from .demo.fap_take import fap_take
 from .files.fap_task import FapTask
 from .files.frames import write_frames
@@ -59,6 +63,20 @@ def write_fap_demonstration(folder: Path) -> FapTask:
     write_fap(fap_take(), motion)
     face = FapFaceFiles(ape / "neutral.obj", ape / "points.json")
     return FapTask(motion, ape / "expressions.npz", face, page=ape / "expressions.html")
+
+
+def acting_donor(sets: Sequence[str]) -> tuple[Face, ShapeSet]:
+    """The built-in actor and its shapes of some sets, for heads that have none.
+
+    Raises
+    ------
+    RetargetError : without sets, or for one that it does not have.
+    """
+    if not sets:
+        raise RetargetError("no set of the built-in actor is chosen, expected some of arkit, visemes, expressions")
+    made = donor()
+    face = replace(made.face, examples={})
+    return face, ShapeSet.of_positions(face.mesh.vertices, face_shapes(made, sets))
 
 
 def _write_face(face: DemoFace, folder: Path) -> tuple[Path, Path]:

@@ -49,20 +49,54 @@ class TargetFiles:
 
 
 @dataclass(frozen=True)
+class SourceFiles:
+    """A head that has the shapes.
+
+    Attributes
+    ----------
+    face : its neutral, points and named parts.
+    shapes : see `read_shapes`.
+    """
+
+    face: FaceFiles
+    shapes: Path
+
+    @property
+    def name(self) -> str:
+        """What reports call it."""
+        return self.face.neutral.name
+
+
+@dataclass(frozen=True)
+class BuiltInActor:
+    """The built-in actor, in place of files.
+
+    Attributes
+    ----------
+    sets : of its shapes: some of arkit, visemes, expressions.
+    """
+
+    sets: tuple[str, ...]
+
+    @property
+    def name(self) -> str:
+        """What reports call it."""
+        return "the built-in actor"
+
+
+@dataclass(frozen=True)
 class CloneJob:
     """Shapes of one head for one or many others. Its paths are absolute; in the file they are relative to its folder.
 
     Attributes
     ----------
-    source : the donor's neutral, points and named parts.
-    shapes : the donor's shapes, see `read_shapes`.
+    source : where the shapes come from.
     targets : the heads that get them.
     preparation : which shapes, and what is made of them before they go over.
     path : the job file itself, None for a job of the command line's own.
     """
 
-    source: FaceFiles
-    shapes: Path
+    source: SourceFiles | BuiltInActor
     targets: tuple[TargetFiles, ...]
     preparation: Preparation = field(default_factory=Preparation)
     method: str = METHOD
@@ -71,7 +105,9 @@ class CloneJob:
 
     def inputs(self) -> dict[str, Path]:
         """What is read: how the job file names it -> its path."""
-        named = {"the job file": self.path, "[source] shapes": self.shapes} | _face_paths("[source]", self.source)
+        named: dict[str, Path | None] = {"the job file": self.path}
+        if isinstance(self.source, SourceFiles):
+            named |= {"[source] shapes": self.source.shapes} | _face_paths("[source]", self.source.face)
         for number, target in enumerate(self.targets, start=1):
             named |= _face_paths(_where(number), target.face)
             named[f"{_where(number)} corrected"] = target.corrected
@@ -110,8 +146,7 @@ def read_clone_job(path: Path) -> CloneJob:
     check_method(method, wrong)
     source = root.table("source")
     job = CloneJob(
-        source=_read_face(source, path.parent),
-        shapes=read_path(source, "shapes", path.parent),
+        source=_read_source(source, path.parent),
         targets=_read_targets(root, path.parent),
         preparation=_read_preparation(root),
         method=method,
@@ -125,6 +160,13 @@ def read_clone_job(path: Path) -> CloneJob:
     if wrong:
         raise RetargetError(fault_sentence(path, wrong))
     return job
+
+
+def _read_source(table: Table, folder: Path) -> SourceFiles | BuiltInActor:
+    sets = read_texts(table, "actor")
+    if sets is not None:
+        return BuiltInActor(sets)
+    return SourceFiles(_read_face(table, folder), read_path(table, "shapes", folder))
 
 
 def _read_face(table: Table, folder: Path) -> FaceFiles:
@@ -190,7 +232,10 @@ def write_clone_job(job: CloneJob, path: Path) -> None:
     """
     folder = path.absolute().parent
     lines = [f"version = {VERSION}", f"method = {toml(job.method)}", "", "[source]"]
-    lines += _path_lines({"shapes": job.shapes} | _face_files(job.source), folder)
+    if isinstance(job.source, BuiltInActor):
+        lines.append(f"actor = {toml(job.source.sets)}")
+    else:
+        lines += _path_lines({"shapes": job.source.shapes} | _face_files(job.source.face), folder)
     lines += _preparation_lines(job.preparation)
     for target in job.targets:
         own = {key: getattr(target, key) for key in ("shapes", "corrected", "report", "page", "sheet")}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,7 +18,7 @@ from ..core.shapes.prepare import PreparedShapes, prepare_shapes
 from ..core.shapes.resolve import resolve_shapes
 from ..core.shapes.shape_set import ShapeSet
 from ..core.shapes.sides import left_share
-from .clone_job import CloneJob, TargetFiles, read_clone_job
+from .clone_job import BuiltInActor, CloneJob, TargetFiles, read_clone_job
 from .job import FaceFiles
 from .mesh_file import MeshFile
 from .meshes import read_mesh
@@ -48,17 +49,31 @@ class _Inputs:
     targets: list[_Target]
 
 
-def run_clone_file(path: Path, progress: Progress = no_progress) -> list[dict[str, Any]]:
+MakeActor = Callable[[Sequence[str]], tuple[Face, ShapeSet]]
+"""Makes the built-in actor, with the shapes of some sets."""
+
+
+def no_actor(sets: Sequence[str]) -> tuple[Face, ShapeSet]:
+    """Say that nobody handed in the built-in actor."""
+    raise RetargetError("the job takes its shapes from the built-in actor, but what runs it did not bring one")
+
+
+def run_clone_file(
+    path: Path, progress: Progress = no_progress, make_actor: MakeActor = no_actor
+) -> list[dict[str, Any]]:
     """Do the clone job of a file; see `run_clone_job`."""
-    return run_clone_job(read_clone_job(path), progress)
+    return run_clone_job(read_clone_job(path), progress, make_actor)
 
 
-def run_clone_job(job: CloneJob, progress: Progress = no_progress) -> list[dict[str, Any]]:
+def run_clone_job(
+    job: CloneJob, progress: Progress = no_progress, make_actor: MakeActor = no_actor
+) -> list[dict[str, Any]]:
     """Do a job: nothing is written before all of it is done, and everything appears together.
 
     Parameters
     ----------
     progress : told how far the job is; may raise Cancelled, which leaves every file as it was.
+    make_actor : `demonstration.acting_donor`, for jobs that take the built-in actor's shapes.
 
     Returns
     -------
@@ -70,7 +85,7 @@ def run_clone_job(job: CloneJob, progress: Progress = no_progress) -> list[dict[
     """
     start = time.perf_counter()
     progress(0.0, "Reading")
-    inputs = _read(job)
+    inputs = _read(job, make_actor)
     seconds = time.perf_counter() - start
     pictures: list[Image] = []
     reports = []
@@ -118,7 +133,7 @@ def _seen(shapes: ShapeSet, prepared: PreparedShapes) -> FloatArray:
 
 def _report(job: CloneJob, target: _Target, cloned: ClonedShapes, reading: float) -> dict[str, Any]:
     report = {
-        "source_file": job.source.neutral.name,
+        "source_file": job.source.name,
         "target_file": target.files.face.neutral.name,
         **cloned.report,
     }
@@ -132,11 +147,11 @@ def _add_pictures(aside: Aside, files: TargetFiles, report: dict[str, Any], keys
         aside.place(files.sheet).write_bytes(clone_sheet(keys, report["shapes"]))
 
 
-def _read(job: CloneJob) -> _Inputs:
+def _read(job: CloneJob, make_actor: MakeActor) -> _Inputs:
     """What the files hold; RetargetError names all that is wrong with them and their places."""
     reading = Reading()
     reading.wrong += overwritten(job.inputs(), job.outputs())
-    source, prepared = _read_source(job, reading)
+    source, prepared = _read_source(job, reading, make_actor)
     targets = [_read_target(files, reading) for files in job.targets]
     whole = [target for target in targets if target is not None]
     if source is not None and prepared is not None and not reading.wrong:
@@ -148,12 +163,13 @@ def _read(job: CloneJob) -> _Inputs:
     return _Inputs(source, prepared, whole)
 
 
-def _read_source(job: CloneJob, reading: Reading) -> tuple[Face | None, PreparedShapes | None]:
-    _, face = _read_face(job.source, reading)
-    if face is None:
-        return None, None
-    shapes = reading.attempt(read_shapes, job.shapes, face.mesh)
-    if shapes is None:
+def _read_source(job: CloneJob, reading: Reading, make_actor: MakeActor) -> tuple[Face | None, PreparedShapes | None]:
+    if isinstance(job.source, BuiltInActor):
+        face, shapes = reading.attempt(make_actor, job.source.sets) or (None, None)
+    else:
+        _, face = _read_face(job.source.face, reading)
+        shapes = None if face is None else reading.attempt(read_shapes, job.source.shapes, face.mesh)
+    if face is None or shapes is None:
         return face, None
     share = None
     if job.preparation.split:

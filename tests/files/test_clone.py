@@ -16,7 +16,14 @@ from facial_retarget_addon.core.methods.settings import HierarchicalSettings
 from facial_retarget_addon.core.shapes.prepare import Preparation
 from facial_retarget_addon.core.shapes.shape_set import ShapeSet
 from facial_retarget_addon.core.shapes.sides import SideNames
-from facial_retarget_addon.files.clone_job import CloneJob, TargetFiles, read_clone_job, write_clone_job
+from facial_retarget_addon.files.clone_job import (
+    BuiltInActor,
+    CloneJob,
+    SourceFiles,
+    TargetFiles,
+    read_clone_job,
+    write_clone_job,
+)
 from facial_retarget_addon.files.clone_task import run_clone_job
 from facial_retarget_addon.files.job import FaceFiles
 from facial_retarget_addon.files.mesh_file import MeshFile
@@ -58,7 +65,8 @@ def job(heads: Path, tmp_path: Path) -> CloneJob:
     def files(name: str) -> FaceFiles:
         return FaceFiles(heads / f"{name}.obj", heads / f"{name}.json")
 
-    return CloneJob(files("donor"), heads / "shapes", (TargetFiles(files("one"), tmp_path / "one.npz"),))
+    source = SourceFiles(files("donor"), heads / "shapes")
+    return CloneJob(source, (TargetFiles(files("one"), tmp_path / "one.npz"),))
 
 
 # ---- the job file -------------------------------------------------------------------------------
@@ -88,10 +96,11 @@ def test_a_job_comes_back_as_it_was_written(job: CloneJob, tmp_path: Path) -> No
         settings=HierarchicalSettings(levels=2, level_gains=(1.0, 0.5)),
     )
     path = tmp_path / "clone.toml"
-    for one in (job, whole):
+    for one in (job, whole, replace(job, source=BuiltInActor(("arkit", "visemes")))):
         write_clone_job(one, path)
         assert replace(read_clone_job(path), path=None) == one
-    assert 'shapes = "two"' in path.read_text()
+        if one is whole:
+            assert 'shapes = "two"' in path.read_text()
 
 
 def test_a_short_job_is_enough(tmp_path: Path) -> None:
@@ -116,6 +125,8 @@ def test_a_short_job_is_enough(tmp_path: Path) -> None:
         ('version = 1\n[shapes]\nfeather = "wide"', "feather = 'wide', expected a number"),
         ("version = 1\n[shapes]\narkit_names = 1", "arkit_names = 1, expected true or false"),
         ('version = 1\n[shapes.merge]\na = "b"', r"\[shapes.merge\] a = 'b', expected a list"),
+        ("version = 1\n[source]\nactor = 'arkit'", "actor = 'arkit', expected a list"),
+        ("version = 1\n[source]\nactor = []\nneutral = 'a.obj'", "neutral is unknown"),
         ("version = 1\n[settings]\nlevels = 3", "has no setting 'levels'"),
     ],
 )
@@ -179,14 +190,14 @@ def test_a_job_chooses_splits_and_learns(job: CloneJob, tmp_path: Path) -> None:
 
 
 def test_a_table_is_a_source_too(job: CloneJob, heads: Path, tmp_path: Path) -> None:
-    donor = read_mesh(job.source.neutral)
+    donor = read_mesh(job.source.face.neutral)
     with written_whole() as aside:
         add_shapes(aside, read_shapes(heads / "shapes", donor.mesh), tmp_path / "table.json", donor)
     run_clone_job(job)
     run_clone_job(
         replace(
             job,
-            shapes=tmp_path / "table.json",
+            source=replace(job.source, shapes=tmp_path / "table.json"),
             targets=(replace(job.targets[0], shapes=tmp_path / "by_table.npz"),),
         )
     )
@@ -196,7 +207,7 @@ def test_a_table_is_a_source_too(job: CloneJob, heads: Path, tmp_path: Path) -> 
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        ([], "clone expects a job file, or --source and at least one --target"),
+        ([], "clone expects a job file, or one of --source and --actor and at least one --target"),
         (["--method", "magic"], "--method magic is unknown"),
         (["clone.toml", "--page"], "cannot be read"),
     ],
@@ -262,3 +273,25 @@ def test_letters_are_written_where_they_fit() -> None:
     assert not dark[:, 9:].any()
     assert (white == 255).all()
     assert (lettered(white, "abcdefghijklmn", scale=2) != 255).any()
+
+
+def test_the_built_in_actor_lends_its_shapes(heads: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    target = ["--target", str(heads / "one.obj"), str(heads / "one.json"), str(tmp_path / "one.npz")]
+    assert main(["clone", "--quiet", "--actor", "visemes", "--actor", "arkit", "--keep", "*aw*", "--keep", "*aa", "--keep", "mouthSmile*", *target]) == 0
+    with np.load(tmp_path / "one.npz") as made:
+        assert {"viseme_aa", "jawOpen", "mouthSmileLeft"} <= set(made)
+        shapes = {name: made[name] for name in made}
+    head = demo.warped_actor(np.random.default_rng(3), vertices=3000)
+    skin = slice(0, len(head.places))
+    for name in ("viseme_aa", "mouthSmileLeft"):
+        truth = demo.face_shapes(head)[name][skin]
+        moved = truth - head.face.mesh.vertices[skin]
+        assert np.linalg.norm(shapes[name][skin] - truth) < 0.25 * np.linalg.norm(moved), name
+    (tmp_path / "clone.toml").write_text(
+        f'version = 1\n[source]\nactor = ["moods"]\n[[targets]]\nneutral = "{heads / "one.obj"}"\n'
+        f'points = "{heads / "one.json"}"\nshapes = "two.npz"\n'
+    )
+    assert main(["clone", "--quiet", str(tmp_path / "clone.toml")]) == 2
+    assert "have no set 'moods', expected some of arkit, visemes, expressions" in capsys.readouterr().err
+    with pytest.raises(RetargetError, match="did not bring one"):
+        run_clone_job(read_clone_job(tmp_path / "clone.toml"))
