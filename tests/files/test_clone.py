@@ -277,7 +277,26 @@ def test_letters_are_written_where_they_fit() -> None:
 
 def test_the_built_in_actor_lends_its_shapes(heads: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     target = ["--target", str(heads / "one.obj"), str(heads / "one.json"), str(tmp_path / "one.npz")]
-    assert main(["clone", "--quiet", "--actor", "visemes", "--actor", "arkit", "--keep", "*aw*", "--keep", "*aa", "--keep", "mouthSmile*", *target]) == 0
+    assert (
+        main(
+            [
+                "clone",
+                "--quiet",
+                "--actor",
+                "visemes",
+                "--actor",
+                "arkit",
+                "--keep",
+                "*aw*",
+                "--keep",
+                "*aa",
+                "--keep",
+                "mouthSmile*",
+                *target,
+            ]
+        )
+        == 0
+    )
     with np.load(tmp_path / "one.npz") as made:
         assert {"viseme_aa", "jawOpen", "mouthSmileLeft"} <= set(made)
         shapes = {name: made[name] for name in made}
