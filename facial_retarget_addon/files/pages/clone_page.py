@@ -7,16 +7,18 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...core.arrays import FloatArray, Progress, no_progress
+from ...core.acting.eyeballs import find_eyeballs
+from ...core.arrays import FloatArray, Progress, no_progress, unit_vectors
 from ...core.errors import RetargetError
 from ...core.mpeg4.fdps import FDPS
 from ...core.mpeg4.head import head_axes
 from ...core.parts.find import NEEDED
+from ...core.points import FeaturePoints
 from ...core.problem import Face
 from ...core.shapes.counterparts import feature_of
 from .lettering import lettered
 from .page import Figure, Section, html_page
-from .pictures import Image, contact_sheet, png_bytes
+from .pictures import SKIN, Image, contact_sheet, png_bytes
 from .report_pictures import Portrait, upright
 
 SIZE = (240, 240)
@@ -26,6 +28,9 @@ COLUMNS = 4
 """Keys beside each other on a contact sheet, three pictures each."""
 _BEYOND = ("forehead", "ear", "neck")
 """Features that pictures need not show."""
+_PUPIL = np.cos(np.radians(24))
+"""Of the angle between the way an eye looks and the edge of its pupil in pictures."""
+_WHITE, _DARK = np.array([0.85, 0.85, 0.85]), np.array([0.02, 0.02, 0.03])
 _FRAME = (205, 40, 40)
 _SECTIONS = (
     Section(
@@ -57,14 +62,28 @@ class KeyPictures(NamedTuple):
 
 
 def portrait_of(face: Face) -> Portrait:
-    """Takes pictures of a face from in front: of what lies between brows and chin, of all of a head without a mouth."""
-    known = [name for name in face.points.names if name in FDPS]
+    """Takes pictures of a face from in front: of what lies between brows and chin, of all of a head without a mouth.
+
+    Eyeballs are white with a dark pupil that looks ahead in the neutral face, so that a gaze shows.
+    """
+    known = face.points.subset([name for name in face.points.names if name in FDPS])
     try:
-        axes = head_axes(known, face.points.subset(known).positions(face.mesh.vertices))
+        axes = head_axes(known.names, known.positions(face.mesh.vertices))
     except RetargetError:
         axes = upright(face)
-    framed = [name for name in known if feature_of(name) not in _BEYOND] if set(known) >= NEEDED else []
-    return Portrait(face.mesh, face.points.subset(framed), axes, SIZE)
+    framed = [name for name in known.names if feature_of(name) not in _BEYOND] if set(known.names) >= NEEDED else []
+    return Portrait(face.mesh, face.points.subset(framed), axes, SIZE, colours=_colours(face, known, axes))
+
+
+def _colours(face: Face, known: FeaturePoints, axes: FloatArray) -> FloatArray:
+    """(V, 3) linear colours of skin, eyeballs and pupils."""
+    colours = np.tile(SKIN, (len(face.mesh.vertices), 1))
+    if not len(known):
+        return colours
+    for eye in find_eyeballs(face.mesh, known, axes, face.named_parts).values():
+        looks = unit_vectors(face.mesh.vertices[eye.vertices] - eye.centre) @ axes[2]
+        colours[eye.vertices] = np.where((looks > _PUPIL)[:, None], _DARK, _WHITE)
+    return colours
 
 
 def key_pictures(face: Face, seen: FloatArray, progress: Progress = no_progress) -> list[Image]:

@@ -63,6 +63,7 @@ class Portrait:
     axes : (3, 3) rows right (in the picture), up, towards the eye.
     size : width and height in pixels.
     make_caster : makes what casts the rays.
+    colours : (V, 3) colours of the vertices from 0 to 1, linear; skin if None.
     """
 
     def __init__(
@@ -72,7 +73,9 @@ class Portrait:
         axes: FloatArray,
         size: tuple[int, int] = PICTURE_SIZE,
         make_caster: CasterFactory = EmbreeCaster,
+        colours: FloatArray | None = None,
     ) -> None:
+        self._colours = colours
         self._faces, self._points, self._axes = mesh.faces, points, axes
         self._size, self._make_caster = size, make_caster
         places = points.positions(mesh.vertices) if len(points) else mesh.vertices[np.unique(mesh.faces)]
@@ -83,7 +86,14 @@ class Portrait:
     def picture(self, vertices: FloatArray) -> Image:
         """The face with its vertices (V, 3) at these positions."""
         upright = vertices @ self._axes.T
-        return shade(upright, self._faces, self._size, frame=self._frame, make_caster=self._make_caster)
+        return shade(
+            upright,
+            self._faces,
+            self._size,
+            frame=self._frame,
+            colours=self._colours,
+            make_caster=self._make_caster,
+        )
 
     def marked(self, vertices: FloatArray) -> Image:
         """The same with a dot at each feature point, seen through the surface."""
