@@ -1,6 +1,7 @@
 """Sets of shapes: choosing, halving, joining, combining them, and taking them to another head."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from facial_retarget_addon import demo
 from facial_retarget_addon.core.acting.expression_sets import expression_shapes
 from facial_retarget_addon.core.acting.fap_face import fit_fap_face
 from facial_retarget_addon.core.errors import RetargetError
+from facial_retarget_addon.core.mesh import TriMesh
 from facial_retarget_addon.core.methods.settings import MotionCloningSettings
 from facial_retarget_addon.core.mpeg4.arkit import ARKIT_NAMES
 from facial_retarget_addon.core.problem import Face, Problem
@@ -30,6 +32,7 @@ from facial_retarget_addon.core.shapes.sides import (
     side_names,
     split,
 )
+from facial_retarget_addon.files.points import read_points
 
 RNG = np.random.default_rng(5)
 
@@ -384,3 +387,31 @@ def test_halves_of_a_corrective_are_correctives() -> None:
 def test_names_that_become_one_are_refused() -> None:
     with pytest.raises(RetargetError, match="'eyeBlinkLeft' appears twice"):
         prepare_shapes(some_shapes("eyeBlink_L", "eyeBlinkLeft"), Preparation(arkit_names=True))
+
+
+TAUGHT = ("mouthSmile_L", "jawOpen", "browInnerUp_L", "eyeBlink_L", "mouthPucker", "noseSneer_R")
+ICT_FACE = 9_409
+
+
+def test_six_corrected_keys_bring_the_others_nearer_to_the_truth(shared_data: Path) -> None:
+    pair = np.load(shared_data / "pair_ict_id02_to_id04_decim.npz")
+    source, target = (TriMesh(pair[f"{which}_vertices"], pair[f"{which}_tris"]) for which in ("src", "tgt"))
+    real = Problem(
+        Face(source, read_points(shared_data / "pair_source_points.json", source)),
+        Face(target, read_points(shared_data / "pair_target_points.json", target)),
+    )
+    names = tuple(str(name) for name in pair["expr_names"])
+    shapes, truth = ShapeSet(names, pair["src_expr_delta"]), ShapeSet(names, pair["gt_expr_delta"])
+    face = pair["src_tris"][pair["corr_src_face"]].max(axis=1) < ICT_FACE
+    others = [name for name in names if name not in TAUGHT]
+
+    def error(found: ShapeSet) -> float:
+        wanted = truth.subset(others).displacements[:, face]
+        miss = np.linalg.norm(found.subset(others).displacements[:, face] - wanted, axis=(1, 2))
+        return float(np.median(miss / np.linalg.norm(wanted, axis=(1, 2))))
+
+    settings, correctives = MotionCloningSettings(), find_correctives(names)
+    plain = clone_shapes("motion_cloning", real, settings, shapes, correctives)
+    taught = resolve_shapes("motion_cloning", real, settings, shapes, truth.subset(TAUGHT), correctives)
+    assert error(taught.shapes) < 0.9 * error(plain.shapes)
+    assert max(figure["fit"] for figure in taught.report["examples"]) < 0.02

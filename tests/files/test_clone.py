@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +16,7 @@ from facial_retarget_addon.core.methods.settings import HierarchicalSettings
 from facial_retarget_addon.core.shapes.prepare import Preparation
 from facial_retarget_addon.core.shapes.shape_set import ShapeSet
 from facial_retarget_addon.core.shapes.sides import SideNames
+from facial_retarget_addon.files.animation_table import read_table
 from facial_retarget_addon.files.clone_job import (
     BuiltInActor,
     CloneJob,
@@ -314,3 +315,23 @@ def test_the_built_in_actor_lends_its_shapes(heads: Path, tmp_path: Path, capsys
     assert "have no set 'moods', expected some of arkit, visemes, expressions" in capsys.readouterr().err
     with pytest.raises(RetargetError, match="did not bring one"):
         run_clone_job(read_clone_job(tmp_path / "clone.toml"))
+
+
+# ---- the document -------------------------------------------------------------------------------
+
+DOCUMENT = Path(__file__).resolve().parents[2] / "docs" / "cloning_sets.md"
+
+
+def block(language: str) -> str:
+    """The document's first block in a language."""
+    return DOCUMENT.read_text().split(f"```{language}\n")[1].split("```")[0]
+
+
+def test_the_documents_job_and_table_are_sound(tmp_path: Path) -> None:
+    (tmp_path / "clone.toml").write_text(block("toml"))
+    job = read_clone_job(tmp_path / "clone.toml")
+    assert job.preparation.merge == {"smile": ("mouthSmile_L", "mouthSmile_R")}
+    known = {field.name for field in fields(Preparation)}
+    assert all(f"{name} = " in block("toml") or f"{name}." in block("toml") for name in known)
+    (tmp_path / "table.json").write_text(block("json"))
+    assert read_table(tmp_path / "table.json", 5171).names == ("open_jaw", "viseme_PP", "jawOpen")
