@@ -34,6 +34,7 @@ from facial_retarget_addon.core.parts.lacking import lacking_parts
 from facial_retarget_addon.core.points import FeaturePoints
 from facial_retarget_addon.core.problem import Face, Problem
 from facial_retarget_addon.core.rigid import fit_rigid
+from facial_retarget_addon.files.parts import read_parts
 from facial_retarget_addon.files.points import read_points
 
 TRUTH = {
@@ -581,3 +582,32 @@ def test_the_robot_and_the_ogre_are_survived(shared_data: Path, ict: Head) -> No
         moved = carried.add_to(np.zeros((1, *mesh.vertices.shape), np.float32), rest)
         np.testing.assert_array_equal(moved, 0.0)
         assert {row["kind"] for row in carried.rows} <= {OTHER}
+
+
+def test_a_named_eyeball_turns_on_a_head_without_a_mouth(shared_data: Path) -> None:
+    """The robot's points are its brows' alone; its eyes were named."""
+    own = Path(__file__).resolve().parents[1] / "data"
+    faces = []
+    for name, file, folder in (("makehuman", "makehuman_dev", shared_data), ("robot", "robot", own)):
+        points = folder / f"{name}_points.json"
+        with np.load(shared_data / f"{file}.npz") as data:
+            mesh = TriMesh.from_polygons(data["vertices"], data["face_counts"], data["face_indices"])
+        parts = read_parts(own / "robot_parts.json", mesh) if name == "robot" else {}
+        faces.append(Face(mesh, read_points(points, mesh), named_parts=parts))
+    source, target = map(know_head, faces)
+    still = np.zeros(len(target.mesh.vertices), bool)
+    eyes = pair_eyeballs(source, target, still)
+    assert [theirs.side for _, theirs in eyes.pairs] == ["left", "right"]
+    frames = source.mesh.vertices[None].copy()
+    ball = source.eyeballs["left"]
+    c, s = np.cos(np.radians(20)), np.sin(np.radians(20))
+    turn = source.axes.T @ np.array([[1, 0, 0], [0, c, -s], [0, s, c]]) @ source.axes
+    frames[0, ball.vertices] = ball.turned(source.mesh.vertices, turn[None])[0]
+    moved = eyes.add_to(np.zeros((1, len(still), 3)), frames)[0]
+    assert (moved[target.eyeballs["right"].vertices] == 0).all()
+    front = target.eyeballs["left"].vertices[(target.places[target.eyeballs["left"].vertices, 2]).argmax()]
+    # The pupil sinks and the ball keeps its size.
+    assert (moved[front] @ target.axes.T)[1] < -0.2 * target.eyeballs["left"].radius
+    away = (target.mesh.vertices + moved)[target.eyeballs["left"].vertices] - target.eyeballs["left"].centre
+    rest = target.mesh.vertices[target.eyeballs["left"].vertices] - target.eyeballs["left"].centre
+    np.testing.assert_allclose(np.linalg.norm(away, axis=1), np.linalg.norm(rest, axis=1), atol=1e-3 * target.mesh.size)

@@ -9,7 +9,7 @@ import numpy as np
 from ..arrays import FloatArray, cross, unit_vectors
 from ..errors import RetargetError
 from .fdps import FDPS
-from .mean_face import place_missing
+from .mean_face import LEAST, MEAN_FACE, place_missing
 
 LEAN = np.radians(1.9)
 """The line from the chin's bottom to the middle of the brows leans backwards by this on an upright head: the mean
@@ -50,6 +50,13 @@ def head_axes(names: Sequence[str], positions: FloatArray) -> FloatArray:
     back_to_front = cross(left, rise)
     up = np.cos(LEAN) * rise + np.sin(LEAN) * back_to_front
     return np.stack([left, up, cross(left, up)])
+
+
+def gives_axes(names: Sequence[str]) -> bool:
+    """Whether points of these names can give `head_axes`: a pair, and chin and brows or enough to place them."""
+    there = set(names)
+    paired = any(name in LEFT and FDPS[name].partner in there for name in there)
+    return paired and (there >= {"2.1", "4.3", "4.4"} or len(there & MEAN_FACE.keys()) >= LEAST)
 
 
 LEFT = frozenset(

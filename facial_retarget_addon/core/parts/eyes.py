@@ -8,7 +8,9 @@ import numpy as np
 
 from ..acting.eyeballs import Eyeball
 from ..arrays import BoolArray, FloatArray
+from ..mpeg4.head import gives_axes
 from ..rigid import closest_rotations
+from .kinds import EYEBALL
 from .known_head import KnownHead
 
 
@@ -61,20 +63,25 @@ def pair_eyeballs(source: KnownHead, target: KnownHead, own: BoolArray) -> EyeTu
 
     Parameters
     ----------
-    source, target : none is paired where the points do not show where eyes and mouth are.
+    source, target : none is paired where the points of either do not show which way the head looks.
     own : (Vt,) vertices that have motion of their own: their eyeballs are left to it.
     """
     # Frames are float32: what does not move must not turn by the rounding of its neutral.
     source_rest = source.mesh.vertices.astype(np.float32).astype(np.float64)
-    if not source.shown or not target.shown:
+    if not (gives_axes(source.points.names) and gives_axes(target.points.names)):
         return EyeTurns((), source_rest, target.mesh.vertices, np.eye(3), 1.0)
     pairs = tuple(
         (eye, target.eyeballs[side])
         for side, eye in source.eyeballs.items()
         if side in target.eyeballs
-        and len(eye.vertices)
-        and len(target.eyeballs[side].vertices)
+        and _is_part(source, eye)
+        and _is_part(target, target.eyeballs[side])
         and not own[target.eyeballs[side].vertices].any()
     )
     across = target.axes.T @ source.axes
     return EyeTurns(pairs, source_rest, target.mesh.vertices, across, target.unit / source.unit)
+
+
+def _is_part(head: KnownHead, eye: Eyeball) -> bool:
+    """Whether an eyeball is a part of its own; one of a head whose points do not show it must have been named."""
+    return len(eye.vertices) > 0 and bool(np.isin(eye.vertices, head.vertices((EYEBALL,))).all())

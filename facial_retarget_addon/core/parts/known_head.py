@@ -14,7 +14,7 @@ from ..base.regions import eye_separation
 from ..mesh import TriMesh
 from ..mpeg4.fapu import Fapu, measure_fapu
 from ..mpeg4.fdps import FDPS
-from ..mpeg4.head import head_axes
+from ..mpeg4.head import gives_axes, head_axes
 from ..mpeg4.regions import OWN_PARTS
 from ..points import FeaturePoints
 from ..problem import Face
@@ -29,7 +29,7 @@ class KnownHead:
     ----------
     mesh : the neutral.
     points : those with MPEG-4 names.
-    axes : (3, 3) of the head; the object's own where `NEEDED` points are missing.
+    axes : (3, 3) of the head; the object's own where its points give none.
     eyeballs : by side.
     parts : all of them.
     """
@@ -78,7 +78,7 @@ def know_head(face: Face) -> KnownHead:
     """Find out what the parts of a face are; without `NEEDED` points nothing is known but what is named."""
     known = face.points.subset([name for name in face.points.names if name in FDPS])
     axes = np.eye(3)
-    if set(known.names) >= NEEDED:
+    if gives_axes(known.names):
         axes = head_axes(known.names, known.positions(face.mesh.vertices))
     eyeballs = find_eyeballs(face.mesh, known, axes, face.named_parts)
     parts = find_parts(face.mesh, known, axes, eyeballs, face.named_parts)

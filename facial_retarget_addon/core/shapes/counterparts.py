@@ -7,13 +7,11 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ..acting.eyeballs import find_eyeballs
 from ..arrays import FloatArray
-from ..mpeg4.fdps import FDPS
-from ..mpeg4.head import LEFT, head_axes
+from ..mpeg4.head import LEFT
 from ..mpeg4.regions import OWN_PARTS, TEETH
-from ..parts.find import NEEDED, find_parts
 from ..parts.kinds import ACROSS, BOTH, LOWER, TONGUE, UPPER, eyeball_name
+from ..parts.known_head import know_head
 from ..problem import Face
 
 MOSTLY = 0.5
@@ -51,29 +49,20 @@ class Features:
     """
 
     def __init__(self, face: Face) -> None:
-        mesh = face.mesh
-        known = face.points.subset([name for name in face.points.names if name in FDPS])
+        head = know_head(face)
         self._names: list[str] = []
-        self._label = np.zeros(len(mesh.vertices), np.int64)
-        self._areas = mesh.vertex_areas
-        skin = known.subset([name for name in known.names if name not in OWN_PARTS])
+        self._label = np.zeros(len(face.mesh.vertices), np.int64)
+        self._areas = face.mesh.vertex_areas
+        skin = head.points.subset([name for name in head.points.names if name not in OWN_PARTS])
         if len(skin):
             rows = np.array([self._row(feature_of(name)) for name in skin.names])
-            self._label = rows[cKDTree(skin.positions(mesh.vertices)).query(mesh.vertices)[1]]
-        has = {feature_of(name) for name in known.names}
-        if len(skin):
-            axes = np.eye(3)
-            if set(known.names) >= NEEDED:
-                axes = head_axes(known.names, known.positions(mesh.vertices))
-            eyeballs = find_eyeballs(mesh, known, axes, face.named_parts)
-            for part in find_parts(mesh, known, axes, eyeballs, face.named_parts):
-                if part.kind in _IN_MOUTH:
-                    self._label[part.vertices] = self._row(_IN_MOUTH[part.kind])
-                    has.add(_IN_MOUTH[part.kind])
-            for side, eye in eyeballs.items():
-                if len(eye.vertices):
-                    self._label[eye.vertices] = self._row(eyeball_name(side))
-                    has.add(eyeball_name(side))
+            self._label = rows[cKDTree(skin.positions(face.mesh.vertices)).query(face.mesh.vertices)[1]]
+        has = {feature_of(name) for name in head.points.names}
+        parts = [(_IN_MOUTH[part.kind], part.vertices) for part in head.parts if part.kind in _IN_MOUTH]
+        parts += [(eyeball_name(side), eye.vertices) for side, eye in head.eyeballs.items() if len(eye.vertices)]
+        for feature, vertices in parts:
+            self._label[vertices] = self._row(feature)
+            has.add(feature)
         self.has = frozenset(has)
         """Features that the head has."""
 

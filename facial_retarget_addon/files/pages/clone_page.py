@@ -7,13 +7,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...core.acting.eyeballs import find_eyeballs
 from ...core.arrays import FloatArray, Progress, no_progress, unit_vectors
-from ...core.errors import RetargetError
-from ...core.mpeg4.fdps import FDPS
-from ...core.mpeg4.head import head_axes
-from ...core.parts.find import NEEDED
-from ...core.points import FeaturePoints
+from ...core.mpeg4.head import gives_axes
+from ...core.parts.known_head import know_head
 from ...core.problem import Face
 from ...core.shapes.counterparts import feature_of
 from .lettering import lettered
@@ -66,24 +62,14 @@ def portrait_of(face: Face) -> Portrait:
 
     Eyeballs are white with a dark pupil that looks ahead in the neutral face, so that a gaze shows.
     """
-    known = face.points.subset([name for name in face.points.names if name in FDPS])
-    try:
-        axes = head_axes(known.names, known.positions(face.mesh.vertices))
-    except RetargetError:
-        axes = upright(face)
-    framed = [name for name in known.names if feature_of(name) not in _BEYOND] if set(known.names) >= NEEDED else []
-    return Portrait(face.mesh, face.points.subset(framed), axes, SIZE, colours=_colours(face, known, axes))
-
-
-def _colours(face: Face, known: FeaturePoints, axes: FloatArray) -> FloatArray:
-    """(V, 3) linear colours of skin, eyeballs and pupils."""
+    head = know_head(face)
+    axes = head.axes if gives_axes(head.points.names) else upright(face)
+    framed = [name for name in head.points.names if feature_of(name) not in _BEYOND] if head.shown else []
     colours = np.tile(SKIN, (len(face.mesh.vertices), 1))
-    if not len(known):
-        return colours
-    for eye in find_eyeballs(face.mesh, known, axes, face.named_parts).values():
+    for eye in head.eyeballs.values():
         looks = unit_vectors(face.mesh.vertices[eye.vertices] - eye.centre) @ axes[2]
         colours[eye.vertices] = np.where((looks > _PUPIL)[:, None], _DARK, _WHITE)
-    return colours
+    return Portrait(face.mesh, face.points.subset(framed), axes, SIZE, colours=colours)
 
 
 def key_pictures(face: Face, seen: FloatArray, progress: Progress = no_progress) -> list[Image]:
