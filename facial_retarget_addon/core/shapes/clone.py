@@ -17,7 +17,7 @@ from ..retarget import retarget
 from ..rigid import fit_similarity
 from .choose import listed
 from .combinations import Corrective, combined, complete, taken_apart
-from .counterparts import Features, listed_features, missing, missing_eyeballs
+from .counterparts import Features, listed_features, missing
 from .shape_set import ShapeSet
 
 STILL = 1e-5
@@ -106,11 +106,9 @@ def clone_shapes(
         if name not in lost and own > STILL * source.size and moved <= STILL * target.size:
             lost[name] = f"acts on the {listed_features(acts[name], list(acts[name]))} alone, which moves nothing here"
     lost = {name: lost[name] for name in shapes.names if name in lost}
-    blind = {name: eyes for name, shares in acts.items() if (eyes := missing_eyeballs(shares, there.has))}
     warnings = [
         *_corrective_warnings(correctives, whole, shapes.names),
         *_still_warnings(shapes, source.size, lost, rows),
-        *_blind_warnings({name: eyes for name, eyes in blind.items() if name not in lost}),
         *result.report["warnings"],
     ]
     report = {**result.report, "warnings": warnings, "shapes": rows, "without_counterpart": lost}
@@ -174,10 +172,3 @@ def _still_warnings(shapes: ShapeSet, size: float, lost: dict[str, str], rows: S
     if faint:
         found.append(f"shapes that hardly move the target: {', '.join(faint)}")
     return found
-
-
-def _blind_warnings(blind: Mapping[str, Sequence[str]]) -> list[str]:
-    if not blind:
-        return []
-    eyes = dict.fromkeys(eye for lacking in blind.values() for eye in lacking)
-    return [f"the target has no {' and '.join(eyes)} to turn: {', '.join(blind)} move what lies around alone"]

@@ -99,11 +99,6 @@ def missing(shares: Mapping[str, float], has: frozenset[str]) -> list[str]:
     return lacking if lacking and enough else []
 
 
-def missing_eyeballs(shares: Mapping[str, float], has: frozenset[str]) -> list[str]:
-    """The eyeballs that a shape moves and that a head lacks."""
-    return [eye for eye in EYEBALLS if shares.get(eye, 0.0) >= SLIGHTLY and eye not in has]
-
-
 def listed_features(shares: Mapping[str, float], among: Sequence[str]) -> str:
     """Those of some features that a shape acts on the most, for a sentence: 'left eye and mouth'."""
     most = max(shares[feature] for feature in among)
