@@ -54,5 +54,5 @@ def _write_report(task: PropertyGroup, problem: Problem, source: FloatArray, res
         if task.report:
             aside.place(Path(bpy.path.abspath(task.report))).write_bytes(report_json(result.report))
         if task.page:
-            page = report_page(result.report, problem, source, result.frames)
+            page = report_page(result.report, problem, source, result.frames, result.levels)
             aside.place(Path(bpy.path.abspath(task.page))).write_bytes(page)

@@ -26,6 +26,10 @@ class LevelMotion(NamedTuple):
     displacements: FloatArray
 
 
+LevelsOf = Callable[[FloatArray], list[LevelMotion]]
+"""Takes source frames (F, Vs, 3); see `LevelRetargeter.levels`."""
+
+
 class LevelRetargeter:
     """A fitted pair of faces.
 

@@ -12,6 +12,7 @@ import numpy as np
 from .arrays import FloatArray, Progress, no_progress
 from .checks import faults, warnings
 from .errors import RetargetError
+from .level_retargeter import LevelRetargeter, LevelsOf
 from .methods.base import fit
 from .methods.settings import Settings
 from .problem import Problem
@@ -23,11 +24,20 @@ BLOCK = 16
 
 @dataclass(frozen=True, eq=False)
 class Result:
-    """frames (F, Vt, 3) float32 in the target's units, the report as plain data, and the figures of each frame."""
+    """What a method made of a job's frames.
+
+    Attributes
+    ----------
+    frames : (F, Vt, 3) float32 in the target's units.
+    report : plain data.
+    per_frame : the figures of each frame.
+    levels : what each level adds to the motion of source frames (F, Vs, 3); None for a method without levels.
+    """
 
     frames: FloatArray
     report: dict[str, Any]
     per_frame: Mapping[str, Sequence[float]]
+    levels: LevelsOf | None = None
 
 
 def retarget(
@@ -79,4 +89,5 @@ def retarget(
             "quality": measuring,
         },
     }
-    return Result(result, report, quality.per_frame())
+    levels = retargeter.levels if isinstance(retargeter, LevelRetargeter) else None
+    return Result(result, report, quality.per_frame(), levels)

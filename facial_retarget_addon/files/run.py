@@ -82,7 +82,7 @@ def run_job(path: Path, progress: Progress = no_progress) -> dict[str, Any]:
             aside.place(job.output.report).write_bytes(report_json(report))
         if job.output.page is not None:
             progress(0.93, "Taking pictures")
-            page = report_page(report, inputs.problem, inputs.frames, result.frames)
+            page = report_page(report, inputs.problem, inputs.frames, result.frames, result.levels)
             aside.place(job.output.page).write_bytes(page)
     progress(1.0, "Done")
     return report

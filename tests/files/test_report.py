@@ -9,10 +9,11 @@ from html.parser import HTMLParser
 import numpy as np
 import pytest
 
+from facial_retarget_addon.core.level_retargeter import LevelMotion
 from facial_retarget_addon.core.points import FeaturePoints
 from facial_retarget_addon.core.problem import Face, Problem
 from facial_retarget_addon.files.pages.report import render, report_json, report_page
-from facial_retarget_addon.files.pages.report_pictures import Moment, liveliest, moments
+from facial_retarget_addon.files.pages.report_pictures import Moment, level_pictures, liveliest, moments
 
 from .conftest import bump, dome, dome_points
 
@@ -125,3 +126,25 @@ def test_a_face_without_points_has_pictures_too(problem):
     pictures = [base64.b64decode(text) for text in re.findall(r'base64,([^"]+)"', page)]
     assert len(pictures) == 4
     assert all(picture.startswith(b"\x89PNG") for picture in pictures)
+
+
+def test_a_row_shows_the_motion_level_upon_level(problem):
+    target = problem.target.mesh.vertices
+    moving = np.stack([problem.source.mesh.vertices, bump(problem.source.mesh, 0.0, 0.3)])
+    whole = bump(problem.target.mesh, 0.0, 0.3) - target
+
+    def levels(frames):
+        assert frames.shape[0] == 1
+        return [LevelMotion("base", 0.75 * whole[None]), LevelMotion("level 1", 0.25 * whole[None])]
+
+    row = level_pictures(problem, moving, levels)
+    assert row.frame == 1
+    assert [name for name, _, _ in row.levels] == ["base", "level 1"]
+    assert row.levels[0][2] == pytest.approx(3 * row.levels[1][2])
+    assert row.levels[0][1] != row.levels[1][1]
+    text = render(REPORT, MOMENTS, 9, row).decode()
+    assert "Frame 2, level upon level" in text
+    assert text.count("<img") == 2 * len(MOMENTS) + 2
+    frames = moving, np.stack([target, target + whole])
+    assert "level upon level" in report_page(REPORT, problem, *frames, levels).decode()
+    assert "level upon level" not in report_page(REPORT, problem, *frames).decode()

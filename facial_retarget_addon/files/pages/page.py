@@ -55,6 +55,7 @@ def html_page(
     report: Mapping[str, Any],
     sections: Iterable[Section],
     shown_elsewhere: Iterable[str] = (),
+    rows: Sequence[Figure] = (),
 ) -> bytes:
     """A page: title, one sentence, warnings, pictures, then the sections; what no section shows follows under More.
 
@@ -62,6 +63,7 @@ def html_page(
     ----------
     report : plain data; its "warnings" stand above the pictures.
     shown_elsewhere : keys of the report that title or lead have said already.
+    rows : figures that take the page's whole width, beneath the others.
     """
     sections = tuple(sections)
     known = {key for section in sections for key in section.keys} | {"warnings", *shown_elsewhere}
@@ -76,6 +78,7 @@ def html_page(
         f'<div class="pictures" style="grid-template-columns: repeat(auto-fill, minmax({width}rem, 1fr))">',
         *map(_figure, figures),
         "</div>",
+        *(f'<div class="pictures">{_figure(row)}</div>' for row in rows),
         *(_section(section, report) for section in (*sections, rest)),
         "</body></html>\n",
     ]

@@ -7,10 +7,11 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ...core.arrays import FloatArray
+from ...core.level_retargeter import LevelsOf
 from ...core.problem import Problem
 from ..documents import json_bytes
 from .page import Figure, Section, html_page
-from .report_pictures import Moment, liveliest, moments
+from .report_pictures import LevelPictures, Moment, level_pictures, liveliest, moments
 
 _SECTIONS = (
     Section(
@@ -47,7 +48,11 @@ def report_json(report: Mapping[str, Any]) -> bytes:
 
 
 def report_page(
-    report: Mapping[str, Any], problem: Problem, source_frames: FloatArray, target_frames: FloatArray
+    report: Mapping[str, Any],
+    problem: Problem,
+    source_frames: FloatArray,
+    target_frames: FloatArray,
+    levels: LevelsOf | None = None,
 ) -> bytes:
     """The report as one HTML file that needs nothing else: pictures of source and target, the figures beneath.
 
@@ -55,9 +60,12 @@ def report_page(
     ----------
     report : plain data; what it holds beyond the known keys is shown too.
     source_frames, target_frames : (F, Vs, 3) and (F, Vt, 3).
+    levels : what each level adds to a frame, for a row of pictures; None for a method without levels.
     """
     chosen = {*liveliest(problem.source.mesh.vertices, source_frames), *worst_frame(report)}
-    return render(report, moments(problem, source_frames, target_frames, sorted(chosen)), len(target_frames))
+    by_level = None if levels is None else level_pictures(problem, source_frames, levels)
+    pictures = moments(problem, source_frames, target_frames, sorted(chosen))
+    return render(report, pictures, len(target_frames), by_level)
 
 
 def worst_frame(report: Mapping[str, Any]) -> list[int]:
@@ -67,12 +75,24 @@ def worst_frame(report: Mapping[str, Any]) -> list[int]:
     return [quality["worst_frame"] - 1] if trouble and quality.get("worst_frame") else []
 
 
-def render(report: Mapping[str, Any], pictures: Sequence[Moment], frame_count: int) -> bytes:
+def render(
+    report: Mapping[str, Any], pictures: Sequence[Moment], frame_count: int, by_level: LevelPictures | None = None
+) -> bytes:
     """The page of a report and its pictures."""
     title = f"Retargeting report: {report['job']}" if "job" in report else "Retargeting report"
     lead = f"{frame_count} frames. Pictures of the liveliest ones and the worst, source left, target right."
     figures = [_figure(moment, worst_frame(report)) for moment in pictures]
-    return html_page(title, lead, figures, report, _SECTIONS, shown_elsewhere=("job",))
+    rows = [] if by_level is None else [_level_row(by_level)]
+    return html_page(title, lead, figures, report, _SECTIONS, shown_elsewhere=("job",), rows=rows)
+
+
+def _level_row(pictures: LevelPictures) -> Figure:
+    moves = ", ".join(f"{name} {most:.3g}" for name, _, most in pictures.levels)
+    caption = (
+        f"Frame {pictures.frame + 1}, level upon level; the redder, the more the level that came last moves a place. "
+        f"At most, in target units: {moves}"
+    )
+    return Figure(caption, tuple((name, png) for name, png, _ in pictures.levels))
 
 
 def _figure(moment: Moment, worst: Sequence[int]) -> Figure:

@@ -4,21 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from ...core.arrays import FloatArray
+from ...core.level_retargeter import LevelsOf
 from ...core.mesh import TriMesh
 from ...core.points import FeaturePoints
 from ...core.problem import Face, Problem
 from ...core.raycast import CasterFactory, EmbreeCaster
 from ..frames import FrameBlocks
-from .pictures import Camera, Image, mark, png_bytes, shade
+from .pictures import SKIN, Camera, Image, mark, png_bytes, shade
 
 PICTURE_SIZE = (360, 360)
 MARGIN = 0.12
 """Around the feature points, as a share of their extent: shows the face and not the shoulders."""
 _BLOCK = 16
+_MOVED = np.array([0.80, 0.08, 0.04])
+"""Colour, linear, of the place that a level moves most."""
 
 
 @dataclass(frozen=True)
@@ -28,6 +32,13 @@ class Moment:
     frame: int
     source: bytes
     target: bytes
+
+
+class LevelPictures(NamedTuple):
+    """One frame, by its number from 0; per level its name, a PNG file, and how far it moves a vertex at most."""
+
+    frame: int
+    levels: tuple[tuple[str, bytes, float], ...]
 
 
 def moments(
@@ -42,6 +53,25 @@ def moments(
         Moment(frame, png_bytes(source.picture(source_frames[frame])), png_bytes(target.picture(target_frames[frame])))
         for frame in chosen
     ]
+
+
+def level_pictures(problem: Problem, source_frames: FloatArray, levels: LevelsOf) -> LevelPictures:
+    """The liveliest of the source's frames (F, Vs, 3) on the target, level upon level.
+
+    Each picture holds what has been added so far; the redder a place, the more its own level moves it.
+    """
+    frame = liveliest(problem.source.mesh.vertices, source_frames, 1)[0]
+    face = problem.target
+    portrait = Portrait(face.mesh, face.points, upright(face), make_caster=problem.make_caster)
+    position = face.mesh.vertices.copy()
+    pictures = []
+    for level in levels(np.asarray(source_frames[frame])[None]):
+        position += level.displacements[0]
+        length = np.linalg.norm(level.displacements[0], axis=1)
+        most = float(length.max())
+        heat = (length / most if most > 0 else length)[:, None]
+        pictures.append((level.name, png_bytes(portrait.picture(position, SKIN + heat * (_MOVED - SKIN))), most))
+    return LevelPictures(frame, tuple(pictures))
 
 
 def liveliest(neutral: FloatArray, frames: FrameBlocks, count: int = 6) -> list[int]:
@@ -83,15 +113,15 @@ class Portrait:
         margin = MARGIN * np.ptp(seen, axis=0).max() * np.array([1.0, 1.0, 0.0])
         self._frame = np.stack([seen.min(axis=0) - margin, seen.max(axis=0) + margin])
 
-    def picture(self, vertices: FloatArray) -> Image:
-        """The face with its vertices (V, 3) at these positions."""
+    def picture(self, vertices: FloatArray, colours: FloatArray | None = None) -> Image:
+        """The face with its vertices (V, 3) at these positions, in colours (V, 3) from 0 to 1, linear; its own if None."""
         upright = vertices @ self._axes.T
         return shade(
             upright,
             self._faces,
             self._size,
             frame=self._frame,
-            colours=self._colours,
+            colours=self._colours if colours is None else colours,
             make_caster=self._make_caster,
         )
 
