@@ -17,6 +17,7 @@ from . import (
     remove_point,
     retarget,
     show_base,
+    show_levels,
 )
 
 CLASSES = (
@@ -31,6 +32,7 @@ CLASSES = (
     list_examples.FACIAL_RETARGET_OT_add_example,
     list_examples.FACIAL_RETARGET_OT_remove_example,
     retarget.FACIAL_RETARGET_OT_retarget,
+    show_levels.FACIAL_RETARGET_OT_show_levels,
     add_actor.FACIAL_RETARGET_OT_add_actor,
     clone_shapes.FACIAL_RETARGET_OT_clone_shapes,
     clone_shapes.FACIAL_RETARGET_OT_find_corrected,

@@ -19,6 +19,7 @@ class FACIAL_RETARGET_PT_retarget(RetargetTab, Panel):
         layout.prop(task, "report")
         layout.prop(task, "page")
         layout.operator("facial_retarget.retarget", icon="PLAY")
+        layout.operator("facial_retarget.show_levels")
 
 
 class FACIAL_RETARGET_PT_settings(RetargetTab, Panel):

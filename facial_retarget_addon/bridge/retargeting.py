@@ -9,12 +9,14 @@ import bpy
 from bpy.types import Context, PropertyGroup
 
 from ..core.arrays import FloatArray, Progress
+from ..core.level_retargeter import LevelMotion
 from ..core.problem import Problem
-from ..core.retarget import Result, retarget
+from ..core.retarget import Result, level_motions, retarget
 from ..files.pages.report import report_json, report_page
 from ..files.whole import written_whole
 from .background import Steps, in_thread, part
 from .bake import write_frames
+from .level_object import show_levels
 from .performance import read_frames
 from .settings import read_task_settings
 from .task import frame_range, read_problem
@@ -46,6 +48,27 @@ def retarget_steps(context: Context) -> Steps[dict[str, Any]]:
     _write_report(task, problem, source, result)
     write_frames(task.target, result.frames, frames.start)
     return result.report
+
+
+def level_steps(context: Context) -> Steps[list[str]]:
+    """Show what each level of the task's method adds at the scene's frame; returns the levels' names.
+
+    Raises
+    ------
+    RetargetError : for bad input; says what, and on which object.
+    """
+    task = context.scene.facial_retarget
+    method, settings = task.method, read_task_settings(task)
+    problem = read_problem(context)
+    now = context.scene.frame_current
+    (frame,) = yield from part(read_frames(context, task.source, range(now, now + 1)), 0.0, READING)
+
+    def compute(progress: Progress) -> list[LevelMotion]:
+        return level_motions(method, problem, settings, frame, progress)
+
+    levels = yield from part(in_thread(compute), READING, 1 - READING)
+    show_levels(task.target, levels)
+    return [level.name for level in levels]
 
 
 def _write_report(task: PropertyGroup, problem: Problem, source: FloatArray, result: Result) -> None:

@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from time import perf_counter
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
-from .arrays import FloatArray, Progress, no_progress
+from .arrays import FloatArray, Progress, no_progress, progress_part
 from .checks import faults, warnings
 from .errors import RetargetError
-from .level_retargeter import LevelRetargeter, LevelsOf
+from .level_retargeter import LevelMotion, LevelRetargeter, LevelsOf
 from .methods.base import fit
-from .methods.settings import Settings
+from .methods.settings import LEVELED, Settings
 from .problem import Problem
 from .quality import Quality
 
@@ -91,3 +91,21 @@ def retarget(
     }
     levels = retargeter.levels if isinstance(retargeter, LevelRetargeter) else None
     return Result(result, report, quality.per_frame(), levels)
+
+
+def level_motions(
+    method: str, problem: Problem, settings: Settings, frame: FloatArray, progress: Progress = no_progress
+) -> list[LevelMotion]:
+    """What each level of a method adds to one frame (Vs, 3) of the source; see `LevelRetargeter.levels`.
+
+    Raises
+    ------
+    RetargetError : as `retarget`, and for a method without levels.
+    """
+    if wrong := faults(problem, None, settings):
+        raise RetargetError("; ".join(wrong))
+    if method not in LEVELED:
+        raise RetargetError(f"method {method!r} has no levels, expected one of {', '.join(LEVELED)}")
+    retargeter = cast(LevelRetargeter, fit(method, problem, settings, progress_part(progress, 0.0, 0.9)))
+    progress(0.9, "taking the frame apart")
+    return retargeter.levels(frame[None])

@@ -9,15 +9,17 @@ import scipy.sparse as sp
 
 from facial_retarget_addon import demo
 from facial_retarget_addon.core.base.base_mesh import base_mesh
+from facial_retarget_addon.core.errors import RetargetError
 from facial_retarget_addon.core.level_retargeter import LevelRetargeter
 from facial_retarget_addon.core.levels.butterfly import butterfly
 from facial_retarget_addon.core.levels.normal_mesh import build_normal_mesh
 from facial_retarget_addon.core.levels.subdivision import hierarchy
 from facial_retarget_addon.core.mesh import TriMesh
 from facial_retarget_addon.core.methods import hierarchical, wavelet
-from facial_retarget_addon.core.methods.settings import HierarchicalSettings, WaveletSettings
+from facial_retarget_addon.core.methods.settings import SETTINGS, HierarchicalSettings, WaveletSettings, read_settings
 from facial_retarget_addon.core.points import FeaturePoints, place_matrix
 from facial_retarget_addon.core.problem import Face, Problem
+from facial_retarget_addon.core.retarget import level_motions, retarget
 from facial_retarget_addon.core.wavelets.lifting import wavelets
 from facial_retarget_addon.core.wavelets.motion import WaveletMotion
 
@@ -184,3 +186,47 @@ def test_gains_take_a_level_out() -> None:
     without = wavelet.fit(problem, WaveletSettings(levels=2, level_gains=(1.0, 0.0))).frames(acting())
     wanted = sum(part.displacements for part in parts if part.name != "level 2") + target().face.mesh.vertices
     np.testing.assert_allclose(without, wanted, atol=1e-5 * target().face.mesh.size)
+
+
+@pytest.mark.parametrize("method", ["hierarchical", "wavelet"])
+def test_one_frame_can_be_taken_apart(method: str) -> None:
+    problem = Problem(plain(actor().face), plain(target().face))
+    parts = level_motions(method, problem, SETTINGS[method](levels=2), acting()[1])
+    assert [part.name for part in parts] == ["base", "level 1", "level 2", "detail"]
+    assert parts[0].displacements.shape == (1, *target().face.mesh.vertices.shape)
+
+
+def test_methods_without_levels_say_so() -> None:
+    problem = Problem(plain(actor().face), plain(target().face))
+    with pytest.raises(RetargetError, match="'feature_points' has no levels, expected one of hierarchical, wavelet"):
+        level_motions("feature_points", problem, SETTINGS["feature_points"](), acting()[0])
+
+
+# ---- bad input ----------------------------------------------------------------------------------
+
+
+def test_too_many_levels_are_refused_before_anything_is_made() -> None:
+    problem = Problem(plain(actor().face), plain(target().face))
+    with pytest.raises(RetargetError, match="level 9 over a base of 500 points"):
+        retarget("wavelet", problem, WaveletSettings(levels=9, base_points=500), acting())
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "expected"),
+    [
+        ("mode", "magic", "one of framed, scaled, paper"),
+        ("lifting", "lazy", "one of disc, integral"),
+        ("disc", 9, "a whole number from 0 to 3"),
+        ("source_mesh", 1, "one of matched, pierced"),
+    ],
+)
+def test_settings_are_checked(name: str, value: object, expected: str) -> None:
+    with pytest.raises(RetargetError, match=f"{name} = .*expected {expected}"):
+        read_settings("wavelet", {name: value})
+
+
+def test_too_few_points_are_named() -> None:
+    source, other = plain(actor().face), plain(target().face)
+    few = [replace(face, points=face.points.subset(source.points.names[:6])) for face in (source, other)]
+    with pytest.raises(RetargetError, match=r"6 feature points in common"):
+        retarget("wavelet", Problem(*few), WaveletSettings(), acting())

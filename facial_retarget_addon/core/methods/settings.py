@@ -132,6 +132,9 @@ SETTINGS: dict[str, type[Settings]] = {
 }
 """Method name -> its settings class."""
 
+LEVELED = tuple(name for name, settings in SETTINGS.items() if issubclass(settings, LevelSettings))
+"""Methods whose motion is made of levels."""
+
 
 def read_settings(method: str, values: dict[str, Any], where: str = "[settings]") -> Settings:
     """Settings of a method from plain values, every one checked.
