@@ -114,7 +114,7 @@ class Portrait:
         self._frame = np.stack([seen.min(axis=0) - margin, seen.max(axis=0) + margin])
 
     def picture(self, vertices: FloatArray, colours: FloatArray | None = None) -> Image:
-        """The face with its vertices (V, 3) at these positions, in colours (V, 3) from 0 to 1, linear; its own if None."""
+        """The face with its vertices (V, 3) at these positions, in colours (V, 3), linear; its own if None."""
         upright = vertices @ self._axes.T
         return shade(
             upright,
