@@ -15,7 +15,9 @@ from .smooth import step
 
 _UP, _ASIDE = np.radians(26.0), np.radians(32.0)
 """How far an eye turns at full contraction."""
-_OUT, _LIFT, _DROP = 0.70, 0.105, 0.30
+_LONG = 0.54
+"""How much of the tongue's length, from the tip, is drawn out, in eye separations; what lies behind stays."""
+_OUT, _LIFT, _DROP = 0.62, 0.02, 0.26
 """How far the tip of the tongue comes out, its back rises over the lip, and the tip drops again; eye separations."""
 
 
@@ -80,7 +82,7 @@ class OnJaw:
         self.columns = [column(action) for action in ("tongue_out", "jaw", *JAW_SHIFTS)]
         self._joint = sculpture.jaw_joint
         self._from_joint = part.vertices - self._joint
-        out = _out(part.vertices) if name == "tongue" else np.zeros_like(part.vertices)
+        out = _out(part.vertices, sculpture.scale) if name == "tongue" else np.zeros_like(part.vertices)
         shifts = (np.broadcast_to(shift, out.shape) for shift, _ in JAW_SHIFTS.values())
         self._moves = sculpture.scale * np.stack([out, *shifts])
 
@@ -92,9 +94,9 @@ class OnJaw:
         return found
 
 
-def _out(tongue: FloatArray) -> FloatArray:
-    """Displacements (n, 3), in eye separations, of a tongue at (n, 3) that comes out."""
+def _out(tongue: FloatArray, scale: float) -> FloatArray:
+    """Displacements (n, 3), in eye separations, of a tongue at (n, 3) that comes out; scale: units in one."""
     forward = tongue[:, 2]
-    share = (forward - forward.min()) / np.ptp(forward)
+    share = np.clip((forward - forward.max()) / (_LONG * scale) + 1.0, 0.0, 1.0)
     over_lip = _LIFT * step(share, 0.0, 0.65) - _DROP * step(share, 0.78, 1.25)
     return np.stack([0.0 * share, over_lip, _OUT * share], axis=1)

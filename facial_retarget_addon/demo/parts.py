@@ -79,16 +79,17 @@ def _eyeball(sculpture: Sculpture, side: float) -> Part:
 
 
 def _tongue(sculpture: Sculpture) -> Part:
-    """It lies below the upper teeth, its tip behind them; its root goes through the mouth's wall."""
+    """It lies below the upper teeth, its tip behind them; its thick root goes through the mouth's wall."""
     ring, round_, quads = _rings(20)
     angle = np.radians(125.0) * ring
-    unit = np.concatenate([np.sin(angle)[:, None] * round_, np.cos(angle)[:, None]], axis=1)
-    flat = unit * np.array([0.20, 0.060, 0.27])
+    x, y = (np.sin(angle) * round_[:, k] for k in (0, 1))
+    back = 0.5 * (1.0 - np.cos(angle))
+    height = np.where(y > 0, 0.060, 0.060 + 0.30 * back**2) * y
     # A furrow along the middle.
-    flat[:, 1] -= 0.018 * bell(flat[:, 0], 0.05) * (unit[:, 1] > 0) * np.sin(angle)
-    middle = sculpture.sheet(np.array([[MOUTH.x, MOUTH.y - 0.10]]))[0]
-    depth = 0.075 * sculpture.shape.muzzle - 0.575
-    positions = middle + sculpture.scale * (flat + np.array([0.0, 0.0, depth]))
+    height -= 0.018 * bell(0.20 * x, 0.05) * (y > 0) * np.sin(angle)
+    middle = sculpture.sheet(np.array([[MOUTH.x, MOUTH.y - 0.03]]))[0]
+    tip = 0.075 * sculpture.shape.muzzle - 0.305
+    positions = middle + sculpture.scale * np.stack([0.20 * x, height, tip - 1.05 * back], axis=1)
     uvs = np.array([0.22, 0.05]) + 0.025 * ring[:, None] * round_
     return Part(positions, quads, uvs, np.tile(_FLESH, (len(positions), 1)))
 

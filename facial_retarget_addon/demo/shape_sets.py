@@ -37,7 +37,7 @@ _WHOLE: dict[str, Pose] = {
     "mouthShrugUpper": {"shrug_upper": 1.0},
     "browInnerUp": {"frontalis_inner": 1.0},
     "cheekPuff": {"puff": 1.0, "press": 0.35},
-    "tongueOut": {"tongue_out": 1.0, "jaw": 0.42, "lower_down": 0.5, "upper_up": 0.2},
+    "tongueOut": {"tongue_out": 1.0, "jaw": 0.5, "lower_down": 0.5, "upper_up": 0.2},
 }
 _LEFT: dict[str, Pose] = {
     "eyeBlink": {"blink_l": 1.0},
