@@ -123,6 +123,12 @@ ACTOR_SETS = [
     ("expressions", "Expressions", "joy, sadness, anger, fear, disgust, surprise"),
 ]
 
+EXISTING_KEYS = [
+    ("KEEP", "Keep", "Shape keys of these names that move something stay as they are"),
+    ("REPLACE", "Replace", "Shape keys of these names are made anew"),
+    ("SUFFIX", "Number", "New shape keys whose name is taken get a number behind it"),
+]
+
 SETTINGS_GROUPS = {method: _settings_group(method) for method in SETTINGS}
 """Method name -> the property group of its settings; on the scene's group it has the method's name."""
 
@@ -170,14 +176,7 @@ class FACIAL_RETARGET_PG_cloning(PropertyGroup):
         name="ARKit Names",
         description="Shape keys that stand for one of ARKit's get its name: eyeBlink_L, EyeBlinkLeft",
     )
-    existing: EnumProperty(
-        name="Existing Keys",
-        items=[
-            ("KEEP", "Keep", "Shape keys of these names that move something stay as they are"),
-            ("REPLACE", "Replace", "Shape keys of these names are made anew"),
-            ("SUFFIX", "Number", "Cloned shape keys whose name is taken get a number behind it"),
-        ],
-    )
+    existing: EnumProperty(name="Existing Keys", items=EXISTING_KEYS)
     copy_drivers: BoolProperty(name="Drivers", default=True, description="Copy the drivers of the shape keys")
     copy_animation: BoolProperty(name="Animation", default=True, description="Copy the animation of the shape keys")
     method: EnumProperty(

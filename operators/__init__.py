@@ -16,6 +16,7 @@ from . import (
     points_files,
     remove_point,
     retarget,
+    shape_files,
     show_base,
     show_levels,
 )
@@ -40,6 +41,8 @@ CLASSES = (
     jobs.FACIAL_RETARGET_OT_load_job,
     jobs.FACIAL_RETARGET_OT_save_job,
     make_shapes.FACIAL_RETARGET_OT_make_shapes,
+    shape_files.FACIAL_RETARGET_OT_load_shapes,
+    shape_files.FACIAL_RETARGET_OT_save_shapes,
     fap_controls.FACIAL_RETARGET_OT_make_controls,
     fap_controls.FACIAL_RETARGET_OT_remove_controls,
     motion.FACIAL_RETARGET_OT_import_motion,

@@ -24,5 +24,8 @@ class FACIAL_RETARGET_PT_motion(RetargetTab, Panel):
         ):
             sets.operator("facial_retarget.make_shapes", text=text).sets = {name}
         row = layout.row(align=True)
+        row.operator("facial_retarget.load_shapes", text="Load Shapes")
+        row.operator("facial_retarget.save_shapes", text="Save Shapes")
+        row = layout.row(align=True)
         row.operator("facial_retarget.import_motion", icon="IMPORT")
         row.operator("facial_retarget.export_motion", icon="EXPORT")

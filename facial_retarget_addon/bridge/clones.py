@@ -7,23 +7,17 @@ from dataclasses import dataclass
 from hashlib import sha256
 from typing import Any, NamedTuple
 
-import numpy as np
 from bpy.types import Object
 
-from ..core.errors import RetargetError
-from ..core.shapes.clone import STILL
 from ..core.shapes.shape_set import ShapeSet
 from .clone_report import figures_note, worst_first
 from .donors import Donor
-from .expression_keys import is_shaped
+from .head_shapes import Plan, put_shapes
 from .heads import Head
 from .key_animation import copy_animation
 from .key_drivers import copy_drivers
-from .key_sets import KeyTraits, free_name, key_names, shortened, write_keys
+from .key_sets import KeyTraits
 from .shape_keys import find_key, key_displacement
-
-Plan = Mapping[str, str]
-"""Name of a shape key to write -> the cloned shape that it gets."""
 
 
 class Origin(NamedTuple):
@@ -69,39 +63,6 @@ class Clones:
         found = [row for row in self.report["still_components"] if own.start <= row["first_vertex"] < own.stop]
         return sum(row["vertices"] for row in found) == own.stop - own.start
 
-    def moving(self, own: slice) -> set[str]:
-        """Names of the shapes that move some vertices."""
-        far = np.abs(self.shapes.displacements[:, own]).max(axis=(1, 2), initial=0.0)
-        moves = far > STILL * self.head.face.mesh.size
-        return {name for name, one in zip(self.shapes.names, moves.tolist(), strict=True) if one}
-
-
-def plan_names(clones: Clones, existing: str) -> dict[str, str]:
-    """What each cloned shape is to be called on its head, and which are written at all.
-
-    Parameters
-    ----------
-    existing : KEEP, REPLACE or SUFFIX.
-
-    Raises
-    ------
-    RetargetError : if a shape has the name of an object's Basis.
-    """
-    things = clones.head.things
-    taken = {name for thing in things for name in key_names(thing)}
-    bases = {thing.data.shape_keys.reference_key.name: thing for thing in things if thing.data.shape_keys is not None}
-    plan: dict[str, str] = {}
-    for shape in clones.shapes.names:
-        name = shortened(shape)
-        if name in bases:
-            raise RetargetError(f"the Basis of object {bases[name].name!r} has the name of shape {shape!r}; rename one")
-        if existing == "SUFFIX" and name in taken:
-            name = free_name(name, taken)
-        if existing != "KEEP" or not any(is_shaped(thing, name) for thing in things):
-            plan[name] = shape
-            taken.add(name)
-    return plan
-
 
 def write_clones(clones: Clones, plan: Plan, donor: Donor, copying: Copying) -> list[str]:
     """Write shapes as `write_shapes`, with the traits, drivers and animation of the keys that they come from.
@@ -121,18 +82,8 @@ def write_clones(clones: Clones, plan: Plan, donor: Donor, copying: Copying) -> 
 
 
 def write_shapes(clones: Clones, plan: Plan, traits: Mapping[str, KeyTraits]) -> dict[Object, list[str]]:
-    """Write shapes onto every object of a head that they move, and list them; returns which key is on which object.
-
-    The face object gets all of them. Keys without traits keep what they have.
-    """
-    written: dict[Object, list[str]] = {}
-    for thing, own, matrix in clones.head.slices():
-        moving, inverse = clones.moving(own), np.linalg.inv(matrix).T
-        all_of_them = thing == clones.head.things[0]
-        names = [n for n in plan if all_of_them or plan[n] in moving or find_key(thing, n) is not None]
-        if names:
-            write_keys(thing, {name: clones.shapes[plan[name]][own] @ inverse for name in names}, traits)
-            written[thing] = names
+    """Put shapes on their head as `put_shapes`, and list them."""
+    written = put_shapes(clones.head, clones.shapes, plan, traits)
     _remember(clones, plan)
     return written
 

@@ -21,8 +21,9 @@ from ..core.shapes.prepare import Preparation, prepare_shapes
 from ..core.shapes.sides import arkit_merges, has_side, left_share, side_names
 from .background import Steps, in_thread, part
 from .clone_report import write_report
-from .clones import Clones, Copying, Origin, plan_names, write_clones
+from .clones import Clones, Copying, Origin, write_clones
 from .donors import Donor, donor_steps
+from .head_shapes import plan_names
 from .heads import Head, head_parts, read_head
 from .key_sets import check_editable
 from .raycast import available_caster
@@ -61,7 +62,7 @@ def clone_steps(context: Context) -> Steps[Outcome]:
     works = [cloner(donor, head, names, cloning.method, settings, cloning) for head in heads]
     made = yield from part(computed(heads, works), MAKING, COMPUTING)
     yield MAKING + COMPUTING, "Writing"
-    plans = [plan_names(clones, cloning.existing) for clones in made]
+    plans = [plan_names(clones.head, clones.shapes.names, cloning.existing) for clones in made]
     copying = Copying(cloning.copy_drivers, cloning.copy_animation)
     unable = [write_clones(clones, plan, donor, copying) for clones, plan in zip(made, plans, strict=True)]
     write_report({clones.head.name: clones.report for clones in made})
