@@ -282,7 +282,7 @@ def _morph(arguments: argparse.Namespace) -> int:
 
 
 def _demo(arguments: argparse.Namespace) -> int:
-    from .demonstration import write_demonstration, write_fap_demonstration
+    from .demonstration import write_demonstration, write_donor, write_fap_demonstration
     from .files.fap_task import run_fap_task
     from .files.run import run_job
 
@@ -293,6 +293,9 @@ def _demo(arguments: argparse.Namespace) -> int:
     task = write_fap_demonstration(arguments.folder)
     _warn(run_fap_task(task, progress)["warnings"])
     print(f"{task.motion} plays on the ape: see {task.page}")
+    print(
+        f"{write_donor(arguments.folder)} gives the built-in actor's shapes to the ape: facial-retarget clone does it"
+    )
     return 0
 
 

@@ -13,6 +13,7 @@ from .core.problem import Face
 from .core.shapes.shape_set import ShapeSet
 from .demo import DemoFace, actor, donor, face_shapes, performance, targets
 from .demo.fap_take import fap_take
+from .files.clone_job import CloneJob, SourceFiles, TargetFiles, write_clone_job
 from .files.fap_task import FapTask
 from .files.frames import write_frames
 from .files.job import ExampleFiles, FaceFiles, Job, OutputFiles, write_job
@@ -20,7 +21,10 @@ from .files.mesh_file import MeshFile
 from .files.meshes import write_mesh
 from .files.motion.fap import write_fap
 from .files.mpeg4_face import FapFaceFiles
+from .files.parts import write_parts
 from .files.points import write_points
+from .files.shape_files import add_shapes
+from .files.whole import written_whole
 
 
 def write_demonstration(folder: Path, progress: Progress = no_progress) -> list[Path]:
@@ -50,6 +54,35 @@ def write_demonstration(folder: Path, progress: Progress = no_progress) -> list[
         jobs.append(path)
     progress(1.0, "Done")
     return jobs
+
+
+def write_donor(folder: Path) -> Path:
+    """Write the built-in actor that lends its shapes, all of them, and a clone job that gives them to the ape.
+
+    Returns
+    -------
+    The job file.
+
+    Raises
+    ------
+    RetargetError : if the system refuses to write.
+    """
+    folder = folder.absolute()
+    made = donor()
+    mesh, ape = made.face.mesh, folder / "ape"
+    plain = replace(made, face=replace(made.face, examples={}))
+    files = FaceFiles(*_write_face(plain, folder), parts=folder / made.name / "parts.json")
+    write_parts(made.face.named_parts, mesh, folder / made.name / "parts.json")
+    shapes = SourceFiles(files, folder / made.name / "shapes.npz")
+    with written_whole() as aside:
+        found = ShapeSet.of_positions(mesh.vertices, face_shapes(made))
+        add_shapes(aside, found, shapes.shapes, MeshFile.from_mesh(mesh))
+    target = TargetFiles(
+        FaceFiles(ape / "neutral.obj", ape / "points.json"), ape / "shapes.npz", sheet=ape / "shapes.png"
+    )
+    path = folder / "ape_shapes.toml"
+    write_clone_job(CloneJob(shapes, (target,)), path)
+    return path
 
 
 def write_fap_demonstration(folder: Path) -> FapTask:

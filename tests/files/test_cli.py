@@ -102,11 +102,19 @@ def test_the_demonstration_is_a_set_of_sound_jobs(tmp_path, monkeypatch, capsys,
     from facial_retarget_addon import demonstration
     from facial_retarget_addon.demo import performance_table
     from facial_retarget_addon.files import run
+    from facial_retarget_addon.files.clone_job import read_clone_job
+    from facial_retarget_addon.files.meshes import read_mesh
+    from facial_retarget_addon.files.parts import read_parts
+    from facial_retarget_addon.files.shape_files import read_shapes
 
     monkeypatch.setattr(run, "report_page", lambda *arguments: b"a page")
     monkeypatch.setattr(demonstration, "performance", lambda face: face.frames(performance_table()[25:28]))
     assert main(["demo", str(tmp_path / "new" / "demo"), "--quiet"]) == 0
     assert (tmp_path / "new" / "demo" / "ape" / "expressions.html").is_file()
+    job = read_clone_job(tmp_path / "new" / "demo" / "ape_shapes.toml")
+    donor = read_mesh(job.source.face.neutral).mesh
+    assert "tongueOut" in read_shapes(job.source.shapes, donor).names
+    assert "tongue" in read_parts(job.source.face.parts, donor)
     for target in ("ape", "skull"):
         names = {path.name for path in (tmp_path / "new" / "demo" / target).iterdir()}
         assert {"neutral.obj", "points.json", "joy.npz", "frames.npz", "report.json", "report.html"} <= names
