@@ -10,6 +10,7 @@ import scipy.sparse as sp
 from scipy.spatial import cKDTree
 
 from ..arrays import BoolArray, FloatArray, IntArray
+from ..matching.surface_fill import HarmonicFill
 from ..mpeg4.mean_face import place_missing
 from .find import Part
 from .kinds import BOTH, LOWER, TONGUE, UPPER
@@ -20,8 +21,12 @@ WITH_JAW = (LOWER, TONGUE, BOTH)
 """Kinds that the jaw takes along, whole or their lower half."""
 LEVER = 1.2
 """What lies before the chin drops by at most this many times the chin's drop."""
+AT_TEETH = 0.02
+"""Gums hold a row of teeth where they are as near to it as they are anywhere, and this much, in eye separations."""
+WELD = 0.25
+"""Half the width of the change from upper to lower half, as a share of the way between the rows."""
 BAND = 0.1
-"""Half the width of the change from upper to lower half: a share of the way between the rows, or eye separations."""
+"""The same across the lips' line where there are no rows, in eye separations."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,8 +101,8 @@ def interleaved(vertices: IntArray) -> IntArray:
 def jaw_share(head: KnownHead, parts: Sequence[Part]) -> FloatArray:
     """(V,) how much of the jaw's motion each vertex takes: from 0 to 1.
 
-    A part that lies across both halves of the mouth is split: by the rows of teeth that it is nearer to, or without
-    them by the lips' line.
+    A part that lies across both halves of the mouth is split: along its surface, between where it holds a row of teeth
+    and the other, or without them by the lips' line.
 
     Parameters
     ----------
@@ -106,10 +111,13 @@ def jaw_share(head: KnownHead, parts: Sequence[Part]) -> FloatArray:
     share = _members(head, parts, (LOWER, TONGUE)).astype(float)
     split = _members(head, parts, (BOTH,))
     if split.any():
-        lips = place_missing(head.points.names, head.points.positions(head.places), ("2.2", "2.3"))
-        rows = [head.places[head.vertices((kind,))] for kind in (UPPER, LOWER)]
-        height = (0.5 * (lips["2.2"] + lips["2.3"])[1] - head.places[split, 1]) / head.unit
-        share[split] = _lower_half(head.places[split], height, *rows)
+        upper, lower = (head.places[head.vertices((kind,))] for kind in (UPPER, LOWER))
+        if len(upper) and len(lower):
+            share[split] = _step((_between_rows(head, split, upper, lower)[split] - 0.5) / WELD)
+        else:
+            lips = place_missing(head.points.names, head.points.positions(head.places), ("2.2", "2.3"))
+            below = 0.5 * (lips["2.2"] + lips["2.3"])[1] - head.places[split, 1]
+            share[split] = _step(below / (BAND * head.unit))
     return share
 
 
@@ -133,16 +141,25 @@ def _with_chin(head: KnownHead, parts: Sequence[Part]) -> sp.csr_matrix:
     return (sp.diags(factors.ravel()) @ sp.kron(follow, sp.identity(3))).tocsr()
 
 
-def _lower_half(places: FloatArray, below: FloatArray, upper: FloatArray, lower: FloatArray) -> FloatArray:
-    """(n,) how far places (n, 3) belong to the lower half: from 0 to 1.
+def _between_rows(head: KnownHead, split: BoolArray, upper: FloatArray, lower: FloatArray) -> FloatArray:
+    """(V,) from 0 at the upper row of teeth to 1 at the lower one, harmonically along what is split (V,).
 
-    below : (n,) how far they lie below the lips' line, in eye separations.
-    upper, lower : (m, 3) places of the rows of teeth; where both are there, they decide.
+    upper, lower : (m, 3) places of the rows.
     """
-    off = below
-    if len(upper) and len(lower):
-        away, near = (cKDTree(row).query(places)[0] for row in (upper, lower))
-        off = away / np.maximum(away + near, 1e-300) - 0.5
-    step = np.clip(0.5 + 0.5 * off / BAND, 0.0, 1.0)
+    up, down = (cKDTree(row).query(head.places)[0] for row in (upper, lower))
+    known = ~split
+    values = np.zeros((len(split), 1))
+    for component in np.unique(head.mesh.components[split]):
+        own = head.mesh.components == component
+        at_upper = own & (up <= up[own].min() + AT_TEETH * head.unit) & (up < down)
+        at_lower = own & (down <= down[own].min() + AT_TEETH * head.unit) & (down <= up)
+        known |= at_upper | at_lower
+        values[at_lower] = 1.0
+    return HarmonicFill(head.mesh, known, np.zeros(len(split))).values(values)[:, 0]
+
+
+def _step(off: FloatArray) -> FloatArray:
+    """From 0 where off (n,) is -1 or less to 1 where it is 1 or more, smoothly."""
+    step = np.clip(0.5 + 0.5 * off, 0.0, 1.0)
     smooth: FloatArray = step * step * (3 - 2 * step)
     return smooth
