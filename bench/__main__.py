@@ -13,6 +13,7 @@ SECTIONS = (
     "cloning",
     "cloning_grid",
     "cloning_speed",
+    "parts",
     "blender_write",
 )
 
