@@ -45,7 +45,7 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument("job", type=Path, help="the job file (TOML)")
     run.set_defaults(command=_run)
     check = commands.add_parser("check", help="say everything that is wrong with a job")
-    check.add_argument("job", type=Path, help="the job file (TOML)")
+    check.add_argument("job", type=Path, help="the job file or clone job (TOML)")
     check.set_defaults(command=_check)
     fap = commands.add_parser(
         "fap", help="play FAPs, ARKit weights or markers on a face, turn them into FAPs, or measure"
@@ -153,9 +153,13 @@ def _run(arguments: argparse.Namespace) -> int:
 
 
 def _check(arguments: argparse.Namespace) -> int:
+    from .demonstration import acting_donor
+    from .files.clone_job import is_clone_job
+    from .files.clone_task import check_clone_job
     from .files.run import check_job
 
-    found = check_job(arguments.job)
+    cloning = is_clone_job(arguments.job)
+    found = check_clone_job(arguments.job, acting_donor) if cloning else check_job(arguments.job)
     for fault in found.faults:
         _complain(fault)
     _warn(found.warnings)

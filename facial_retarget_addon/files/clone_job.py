@@ -131,6 +131,11 @@ def _face_paths(where: str, face: FaceFiles) -> dict[str, Path | None]:
     return {f"{where} {key}": getattr(face, key) for key in ("neutral", "points", "parts")}
 
 
+def is_clone_job(path: Path) -> bool:
+    """Whether a job file is a clone job's: it has targets. RetargetError if it is no TOML document."""
+    return "targets" in read_toml(path)
+
+
 def read_clone_job(path: Path) -> CloneJob:
     """Read a clone job.
 

@@ -9,13 +9,14 @@ from pathlib import Path
 from typing import Any
 
 from ..core.arrays import FloatArray, Progress, no_progress, progress_part
-from ..core.checks import faults
+from ..core.checks import faults, warnings
 from ..core.errors import RetargetError
+from ..core.methods.settings import Settings
 from ..core.problem import Face, Problem
 from ..core.shapes.clone import ClonedShapes, clone_shapes
 from ..core.shapes.combinations import combined, complete
 from ..core.shapes.prepare import PreparedShapes, prepare_shapes
-from ..core.shapes.resolve import resolve_shapes
+from ..core.shapes.resolve import check_corrected, resolve_shapes
 from ..core.shapes.shape_set import ShapeSet
 from ..core.shapes.sides import left_share
 from .clone_job import BuiltInActor, CloneJob, TargetFiles, read_clone_job
@@ -25,7 +26,7 @@ from .meshes import read_mesh
 from .pages.clone_page import KeyPictures, clone_page, clone_sheet, key_pictures, sheet_rows
 from .pages.pictures import Image
 from .pages.report import report_json
-from .run import Reading
+from .run import Findings, Reading
 from .shape_files import add_shapes, check_shapes_place, read_shapes
 from .whole import Aside, check_place, overwritten, written_whole
 
@@ -39,6 +40,11 @@ class _Target:
     face: Face
     corrected: ShapeSet | None
 
+    @property
+    def name(self) -> str:
+        """What messages and reports call it."""
+        return self.files.face.neutral.name
+
 
 @dataclass(frozen=True, eq=False)
 class _Inputs:
@@ -47,6 +53,7 @@ class _Inputs:
     source: Face
     prepared: PreparedShapes
     targets: list[_Target]
+    settings: Settings
 
 
 MakeActor = Callable[[Sequence[str]], tuple[Face, ShapeSet]]
@@ -85,7 +92,9 @@ def run_clone_job(
     """
     start = time.perf_counter()
     progress(0.0, "Reading")
-    inputs = _read(job, make_actor)
+    inputs, wrong = _read(job, make_actor)
+    if wrong or inputs is None:
+        raise RetargetError("; ".join(wrong))
     seconds = time.perf_counter() - start
     pictures: list[Image] = []
     reports = []
@@ -121,7 +130,7 @@ def _clone(job: CloneJob, inputs: _Inputs, target: _Target, progress: Progress) 
             job.method, problem, job.settings, prepared.shapes, target.corrected, prepared.correctives, progress
         )
     except RetargetError as error:
-        raise RetargetError(f"{target.files.face.neutral.name}: {error}") from error
+        raise RetargetError(f"{target.name}: {error}") from error
 
 
 def _seen(shapes: ShapeSet, prepared: PreparedShapes) -> FloatArray:
@@ -134,7 +143,7 @@ def _seen(shapes: ShapeSet, prepared: PreparedShapes) -> FloatArray:
 def _report(job: CloneJob, target: _Target, cloned: ClonedShapes, reading: float) -> dict[str, Any]:
     report = {
         "source_file": job.source.name,
-        "target_file": target.files.face.neutral.name,
+        "target_file": target.name,
         **cloned.report,
     }
     return report | {"seconds": {"read": reading, **cloned.report["seconds"]}}
@@ -147,8 +156,27 @@ def _add_pictures(aside: Aside, files: TargetFiles, report: dict[str, Any], keys
         aside.place(files.sheet).write_bytes(clone_sheet(keys, report["shapes"]))
 
 
-def _read(job: CloneJob, make_actor: MakeActor) -> _Inputs:
-    """What the files hold; RetargetError names all that is wrong with them and their places."""
+def check_clone_job(path: Path, make_actor: MakeActor = no_actor) -> Findings:
+    """Everything that is wrong with a clone job, its files and its heads; nothing is written."""
+    try:
+        inputs, wrong = _read(read_clone_job(path), make_actor)
+    except RetargetError as error:
+        return Findings([str(error)], [])
+    if wrong or inputs is None:
+        return Findings(wrong, [])
+    frames = inputs.prepared.shapes.positions(inputs.source.mesh.vertices)
+    return Findings(
+        [],
+        [
+            f"{target.name}: {warning}"
+            for target in inputs.targets
+            for warning in warnings(Problem(inputs.source, target.face), frames, inputs.settings)
+        ],
+    )
+
+
+def _read(job: CloneJob, make_actor: MakeActor) -> tuple[_Inputs | None, list[str]]:
+    """What the files hold, and all that is wrong with them and their places; None where that leaves nothing to do."""
     reading = Reading()
     reading.wrong += overwritten(job.inputs(), job.outputs())
     source, prepared = _read_source(job, reading, make_actor)
@@ -157,10 +185,11 @@ def _read(job: CloneJob, make_actor: MakeActor) -> _Inputs:
     if source is not None and prepared is not None and not reading.wrong:
         for target in whole:
             wrong = faults(Problem(source, target.face), None, job.settings)
-            reading.wrong += [f"{target.files.face.neutral.name}: {fault}" for fault in wrong]
-    if reading.wrong or source is None or prepared is None:
-        raise RetargetError("; ".join(dict.fromkeys(reading.wrong)))
-    return _Inputs(source, prepared, whole)
+            reading.wrong += [f"{target.name}: {fault}" for fault in wrong]
+            if target.corrected is not None:
+                reading.attempt(check_corrected, prepared.shapes, target.corrected)
+    found = None if source is None or prepared is None else _Inputs(source, prepared, whole, job.settings)
+    return found, list(dict.fromkeys(reading.wrong))
 
 
 def _read_source(job: CloneJob, reading: Reading, make_actor: MakeActor) -> tuple[Face | None, PreparedShapes | None]:

@@ -247,6 +247,22 @@ def test_an_input_is_never_replaced(heads: Path, capsys: pytest.CaptureFixture[s
     assert "are one file" in capsys.readouterr().err
 
 
+def test_a_clone_job_is_checked(job: CloneJob, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "clone.toml"
+    write_clone_job(job, path)
+    assert main(["check", str(path)]) == 0
+    assert f"{path} is fine" in capsys.readouterr().out
+    smirk = ShapeSet(("smirk",), np.zeros((1, *read_mesh(job.targets[0].face.neutral).mesh.vertices.shape)))
+    with written_whole() as aside:
+        add_shapes(aside, smirk, tmp_path / "smirk.json", read_mesh(job.targets[0].face.neutral))
+    write_clone_job(replace(job, targets=(replace(job.targets[0], corrected=tmp_path / "smirk.json"),)), path)
+    assert main(["check", str(path)]) == 2
+    assert "corrected shapes smirk are not among the source's browInnerUp" in capsys.readouterr().err
+    assert {entry.name for entry in tmp_path.iterdir()} == {"clone.toml", "smirk.json"}
+    path.write_text("targets = 1")
+    assert main(["check", str(path)]) == 2
+
+
 def test_stopping_leaves_everything_as_it_was(job: CloneJob, tmp_path: Path) -> None:
     def stop(share: float, what: str) -> None:
         if share > 0.5:

@@ -42,9 +42,7 @@ def resolve_shapes(
     ------
     RetargetError : for corrected shapes of other names or of another head, or as `clone_shapes`.
     """
-    strange = [name for name in corrected.names if name not in shapes.names]
-    if strange:
-        raise RetargetError(f"corrected shapes {listed(strange)} are not among the source's {listed(shapes.names)}")
+    check_corrected(shapes, corrected)
     target = problem.target.mesh
     if corrected.displacements.shape[1:] != target.vertices.shape:
         raise RetargetError(
@@ -65,6 +63,13 @@ def resolve_shapes(
     )
     cloned = clone_shapes(method, taught, settings, shapes, correctives, progress_part(progress, 0.3, 1.0))
     return _kept(cloned, corrected, [name for name in corrected.names if name not in teachers])
+
+
+def check_corrected(shapes: ShapeSet, corrected: ShapeSet) -> None:
+    """RetargetError if a corrected shape is none of the source's; names those that are not."""
+    strange = [name for name in corrected.names if name not in shapes.names]
+    if strange:
+        raise RetargetError(f"corrected shapes {listed(strange)} are not among the source's {listed(shapes.names)}")
 
 
 def _tells(problem: Problem, displacement: FloatArray) -> bool:
