@@ -12,6 +12,7 @@ import pytest
 from facial_retarget_addon.cli import main
 from facial_retarget_addon.core.errors import Cancelled
 from facial_retarget_addon.core.mpeg4.sets import SETS
+from facial_retarget_addon.files.animation_table import read_table_parameters
 from facial_retarget_addon.files.meshes import read_mesh
 from facial_retarget_addon.files.mpeg4_face import FapFaceFiles
 from facial_retarget_addon.files.shapes_task import ShapesTask, run_shapes_task
@@ -115,3 +116,11 @@ def test_stopping_leaves_every_file_as_it_was(
 def test_names_are_files_that_every_system_tells_apart() -> None:
     names = [name.lower() for shapes_of in SETS.values() for name in shapes_of]
     assert len(set(names)) == len(names)
+
+
+def test_a_facial_animation_table(face: FaceOnDisk, tmp_path: Path) -> None:
+    assert shapes(tmp_path / "faps.json", *face.arguments, "--set", "faps") == 0
+    found, parameters = read_table_parameters(tmp_path / "faps.json", len(face.actor.face.mesh.vertices))
+    assert {parameter.kind for parameter in parameters.values()} == {"fap"}
+    assert parameters["open_jaw"].key == 3
+    assert found.largest().min() > 0
