@@ -10,6 +10,7 @@ SECTIONS = (
     "feature_points",
     "wrinkles",
     "real_faces",
+    "levels",
     "cloning",
     "cloning_grid",
     "cloning_speed",
