@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
+from bench import min_jung
 from facial_retarget_addon import demo
 from facial_retarget_addon.core.base.base_mesh import base_mesh
 from facial_retarget_addon.core.errors import RetargetError
@@ -150,6 +151,23 @@ def test_a_turned_copy_of_a_subdivided_face_is_exact() -> None:
     copy = moved_face(source, 7.0, ROTATION, SHIFT)
     found = wavelet.fit(Problem(source, copy), WaveletSettings(levels=4)).frames(frames)
     assert relative(found, 7.0 * frames @ ROTATION.T + SHIFT, copy.mesh.vertices) < 1e-5
+
+
+def test_the_papers_setting() -> None:
+    """2964 vertices and 5760 triangles over a base of 90, with holes for mouth, eyes and nostrils; three levels."""
+    faces, acting = min_jung.setting()
+    for face in faces:
+        assert (len(face.mesh.vertices), len(face.mesh.faces)) == (min_jung.VERTICES, min_jung.TRIANGLES)
+    source, other, _ = faces
+    assert len(source.mesh.boundary_loops) == 6
+    report = wavelet.fit(Problem(source, other), WaveletSettings(levels=6)).report
+    assert (report["base"]["points"], report["base"]["triangles"], len(report["levels"])) == (52, 90, 3)
+    found = wavelet.fit(Problem(source, other), WaveletSettings()).frames(acting.astype(np.float32))
+    moved = found - other.mesh.vertices
+    # The corners of the mouth go up with a smile and down with a cry.
+    corners = other.points.subset(["2.4", "2.5"]).positions(moved)[..., 1]
+    assert (corners[0] > 0.02 * other.mesh.size).all()
+    assert (corners[1] < -0.01 * other.mesh.size).all()
 
 
 # ---- levels -------------------------------------------------------------------------------------
