@@ -140,6 +140,7 @@ def _add_morph_arguments(morph: argparse.ArgumentParser) -> None:
 def _add_face_arguments(command: argparse.ArgumentParser, required: bool) -> None:
     command.add_argument("--face", type=Path, required=required, help="the neutral face (.obj .ply .npz)")
     command.add_argument("--points", type=Path, required=required, help="its feature points (.json)")
+    command.add_argument("--parts", type=Path, help="what its parts are, such as teeth (.json)")
     command.add_argument("--variant", choices=("default", "paper"), default="default", help="of the points' weights")
     command.add_argument("--report", type=Path, help="where figures go (.json)")
     command.add_argument("--page", type=Path, help="where pictures go (.html)")
@@ -176,7 +177,7 @@ def _fap(arguments: argparse.Namespace) -> int:
     task = FapTask(
         arguments.motion,
         arguments.out,
-        _optional_face(arguments, arguments.variant),
+        _optional_face(arguments, arguments.variant, arguments.parts),
         missing=arguments.missing,
         gaps=arguments.gaps,
         marker_map=arguments.map,
@@ -190,12 +191,16 @@ def _fap(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _optional_face(arguments: argparse.Namespace, variant: str = "default") -> FapFaceFiles | None:
+def _optional_face(
+    arguments: argparse.Namespace, variant: str = "default", parts: Path | None = None
+) -> FapFaceFiles | None:
     from .files.mpeg4_face import FapFaceFiles
 
     if (arguments.face is None) != (arguments.points is None):
         raise RetargetError("--face and --points go together, but one of them is missing")
-    return None if arguments.face is None else FapFaceFiles(arguments.face, arguments.points, variant)
+    if arguments.face is None and parts is not None:
+        raise RetargetError("--parts goes with --face and --points, which are missing")
+    return None if arguments.face is None else FapFaceFiles(arguments.face, arguments.points, variant, parts)
 
 
 def _markers(arguments: argparse.Namespace) -> int:
@@ -217,7 +222,7 @@ def _shapes(arguments: argparse.Namespace) -> int:
     from .files.mpeg4_face import FapFaceFiles
     from .files.shapes_task import ShapesTask, run_shapes_task
 
-    face = FapFaceFiles(arguments.face, arguments.points, arguments.variant)
+    face = FapFaceFiles(arguments.face, arguments.points, arguments.variant, arguments.parts)
     task = ShapesTask(face, tuple(arguments.set), arguments.out, arguments.report, arguments.page)
     _warn(run_shapes_task(task, _progress(arguments))["warnings"])
     return 0

@@ -17,7 +17,7 @@ from .arrays import BoolArray, FloatArray, IntArray
 from .errors import RetargetError
 from .methods.settings import LevelSettings, Settings
 from .mpeg4.regions import OWN_PARTS
-from .parts.kinds import NAMED_KINDS
+from .parts.kinds import named_faults
 from .parts.lacking import lacking_parts
 from .points import FeaturePoints, common_names
 from .problem import Face, Problem
@@ -55,7 +55,7 @@ def faults(problem: Problem, frames: FloatArray | None, settings: Settings) -> l
         found += _unusable(side, face) or [
             *_bad_faces(side, face, True),
             *_stray_points(side, face),
-            *_named_part_faults(side, face),
+            *(f"{side}: {fault}" for fault in named_faults(face.mesh, face.points, face.named_parts)),
         ]
     found += _missing_points(problem, LEAST_POINTS if isinstance(settings, LevelSettings) else FEWEST_POINTS)
     found += _example_faults(problem)
@@ -230,31 +230,6 @@ def _missing_points(problem: Problem, least: int) -> list[str]:
         f"source and target have {common} feature points in common (of {len(problem.source.points)} and "
         f"{len(problem.target.points)}), expected at least {least}{base}"
     ]
-
-
-# ---- named parts --------------------------------------------------------------------------------
-def _named_part_faults(side: str, face: Face) -> list[str]:
-    """Parts that nobody knows, on vertices that do not exist, on the skin, or under two names."""
-    count, labels = len(face.mesh.vertices), face.mesh.components
-    found: list[str] = []
-    holds: dict[int, str] = {}
-    on_skin = [name for name in face.points.names if name not in OWN_PARTS]
-    for component in labels[face.points.subset(on_skin).holders].tolist():
-        holds[component] = "the skin"
-    for name, held in face.named_parts.items():
-        vertices = np.asarray(held)
-        if name not in NAMED_KINDS:
-            found.append(f"{side}: a part is named {name!r}, expected one of {', '.join(NAMED_KINDS)}")
-        elif vertices.ndim != 1 or vertices.dtype.kind not in "iu" or not len(vertices):
-            found.append(f"{side}: part {name!r} has {vertices.dtype} {vertices.shape}, expected a list of vertices")
-        elif vertices.min() < 0 or vertices.max() >= count:
-            found.append(f"{side}: part {name!r} has vertices that the {count} do not include")
-        else:
-            for component in np.unique(labels[vertices]).tolist():
-                if (other := holds.setdefault(component, name)) != name:
-                    found.append(f"{side}: part {name!r} and {other} are one connected piece, expected separate ones")
-                    break
-    return found
 
 
 # ---- examples -----------------------------------------------------------------------------------

@@ -18,6 +18,7 @@ from facial_retarget_addon.files.clone_job import read_clone_job
 from facial_retarget_addon.files.frames import read_frames, write_frames
 from facial_retarget_addon.files.job import read_job
 from facial_retarget_addon.files.meshes import read_mesh, write_mesh
+from facial_retarget_addon.files.parts import read_parts, write_parts
 from facial_retarget_addon.files.points import read_points, write_points
 from facial_retarget_addon.files.shape_files import add_shapes, read_shapes
 from facial_retarget_addon.files.whole import written_whole
@@ -101,6 +102,10 @@ def read_any_points(path: Path) -> None:
     assert np.isfinite(points.positions(MESH.mesh.vertices)).all()
 
 
+def read_any_parts(path: Path) -> None:
+    assert all(MESH.mesh.vertices[vertices].size for vertices in read_parts(path, MESH.mesh).values())
+
+
 def read_any_shapes(path: Path) -> None:
     assert np.isfinite(read_shapes(path, MESH.mesh).displacements).all()
 
@@ -115,6 +120,7 @@ READERS: dict[str, Callable[[Path], object]] = {
     "frames.pc2": read_any_frames,
     "frames.mdd": read_any_frames,
     "points.json": read_any_points,
+    "parts.json": read_any_parts,
     "base.json": read_base_mesh,
     "table.json": read_any_shapes,
     "shapes.npz": read_any_shapes,
@@ -157,6 +163,8 @@ def sound(folder: Path, name: str) -> bytes:
             return packed.getvalue()
         case "points.json":
             write_points(dome_points(SIDE), path)
+        case "parts.json":
+            write_parts({"tongue": np.array([3]), "lashes": np.array([7])}, MESH.mesh, path)
         case "table.json" | "shapes.npz":
             shapes = ShapeSet.of_positions(MESH.mesh.vertices, {"jawOpen": FRAMES[1], "smirk": FRAMES[0]})
             with written_whole() as aside:

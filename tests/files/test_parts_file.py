@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from facial_retarget_addon.cli import main
 from facial_retarget_addon.core.errors import RetargetError
 from facial_retarget_addon.core.mesh import TriMesh
 from facial_retarget_addon.core.parts.kinds import named_vertices
@@ -18,7 +19,7 @@ from facial_retarget_addon.files.meshes import write_mesh
 from facial_retarget_addon.files.parts import read_parts, write_parts
 from facial_retarget_addon.files.run import check_job, read_inputs
 
-from .conftest import dome
+from .conftest import FaceOnDisk, dome
 
 DOME = dome(7).mesh
 PIECES = TriMesh(
@@ -103,3 +104,20 @@ def test_a_part_on_the_skin_is_a_fault_of_the_job(job: Job) -> None:
 def test_parts_that_cannot_be_read_are_a_fault_of_the_job(job: Job) -> None:
     with_parts(job, '{"tongue": 3}')
     assert "part 'tongue' is 3, expected a table" in "; ".join(check_job(job.path).faults)
+
+
+def test_the_command_line_plays_a_face_whose_parts_are_named(
+    face: FaceOnDisk, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    mesh = face.actor.face.mesh
+    skin = face.actor.face.points.vertices[0, 0]
+    eye = int(np.flatnonzero(mesh.components == mesh.components[-1])[0])
+    command = ["shapes", *face.arguments, "--set", "expressions", "--out", str(tmp_path / "shapes")]
+    assert main([*command, "--parts", str(written(tmp_path, f'{{"tongue": {{"vertices": [{skin}]}}}}'))]) == 2
+    assert "parts.json: part 'tongue' and the skin are one connected piece" in capsys.readouterr().err
+    report = tmp_path / "report.json"
+    named = written(tmp_path, f'{{"still": {{"vertices": [{eye}]}}}}')
+    assert main([*command, "--parts", str(named), "--report", str(report)]) == 0
+    assert "named still" in report.read_text()
+    assert main(["fap", "take.fap", "--parts", str(named), "--out", str(tmp_path / "out.fap")]) == 2
+    assert "--parts goes with --face and --points" in capsys.readouterr().err

@@ -21,7 +21,7 @@ from ..mpeg4.head import head_axes
 from ..mpeg4.head_turn import rotation_of_angles
 from ..mpeg4.mean_face import place_missing
 from ..parts.acting_parts import with_parts
-from ..parts.kinds import NO_NAMES, NamedParts
+from ..parts.kinds import NO_NAMES, NamedParts, named_faults
 from ..points import FeaturePoints
 from .eyeballs import Eyeball
 from .point_deformer import PointDeformer, fit_deformer
@@ -235,7 +235,7 @@ def fit_fap_face(
     Raises
     ------
     RetargetError : for a mesh or points that cannot be used: no MPEG-4 names, no left and right, a unit of no length,
-        places that are not on the mesh; and for a variant that does not exist.
+        places that are not on the mesh; for named parts that are none, and for a variant that does not exist.
 
     References
     ----------
@@ -250,6 +250,8 @@ def fit_fap_face(
         raise RetargetError(
             f"none of the {len(points)} feature points has an MPEG-4 name, expected names such as 2.1, 8.3 and 8.4"
         )
+    if wrong := named_faults(mesh, points, named):
+        raise RetargetError("; ".join(wrong))
     progress(0.1, "finding what each point moves")
     face = FapFace(mesh, points, variant, named)
     progress(1.0, "fitted")

@@ -9,6 +9,8 @@ import numpy as np
 
 from ..arrays import IntArray
 from ..mesh import TriMesh
+from ..mpeg4.regions import OWN_PARTS
+from ..points import FeaturePoints
 
 EYEBALL, AROUND_EYE = "eyeball", "around an eye"
 UPPER, LOWER, BOTH = "upper part of the mouth", "lower part of the mouth", "inside of the mouth"
@@ -49,3 +51,30 @@ def named_vertices(mesh: TriMesh, named: NamedParts) -> dict[str, IntArray]:
 def eyeball_name(side: str) -> str:
     """What an artist calls the eyeball of a side, left or right."""
     return f"{side} eyeball"
+
+
+def named_faults(mesh: TriMesh, points: FeaturePoints, named: NamedParts) -> list[str]:
+    """Parts that nobody knows, on vertices that do not exist, on the skin, or under two names: one clause for each.
+
+    Parameters
+    ----------
+    points : those that do not lie on eyes, teeth or tongue show which components are the skin.
+    """
+    count, labels = len(mesh.vertices), mesh.components
+    found: list[str] = []
+    on_skin = points.subset([name for name in points.names if name not in OWN_PARTS])
+    holds = dict.fromkeys(labels[on_skin.holders].tolist(), "the skin")
+    for name, held in named.items():
+        vertices = np.asarray(held)
+        if name not in NAMED_KINDS:
+            found.append(f"a part is named {name!r}, expected one of {', '.join(NAMED_KINDS)}")
+        elif vertices.ndim != 1 or vertices.dtype.kind not in "iu" or not len(vertices):
+            found.append(f"part {name!r} has {vertices.dtype} {vertices.shape}, expected a list of vertices")
+        elif vertices.min() < 0 or vertices.max() >= count:
+            found.append(f"part {name!r} has vertices that the {count} do not include")
+        else:
+            for component in np.unique(labels[vertices]).tolist():
+                if (other := holds.setdefault(component, name)) != name:
+                    found.append(f"part {name!r} and {other} are one connected piece, expected separate ones")
+                    break
+    return found
