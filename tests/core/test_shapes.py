@@ -288,6 +288,22 @@ def test_what_a_head_lacks_stays_still_and_is_named(problem: Problem, arkit: Sha
     assert any("no counterpart for mouthPucker" in text for text in cloned.report["warnings"])
 
 
+def test_areas_without_points_are_no_loss(problem: Problem, arkit: ShapeSet) -> None:
+    shapes = arkit.subset(["cheekPuff", "cheekSquintLeft", "browInnerUp", "jawOpen"])
+    bare = replace(problem, target=without(problem.target, "cheek", "forehead", "ear", "neck"))
+    assert clone_shapes("motion_cloning", bare, MotionCloningSettings(), shapes).without_counterpart == {}
+
+
+def test_a_corrective_stays_still_with_what_it_needs(problem: Problem, arkit: ShapeSet) -> None:
+    shapes = arkit.subset(["eyeBlinkLeft", "mouthSmileLeft"])
+    correctives = find_correctives(shapes.names, {"mouthSmileLeft": ("eyeBlinkLeft",)})
+    blind = replace(problem, target=without(problem.target, "left eye", "left eyeball"))
+    cloned = clone_shapes("motion_cloning", blind, MotionCloningSettings(), shapes, correctives)
+    assert set(cloned.without_counterpart) == set(shapes.names)
+    assert cloned.without_counterpart["mouthSmileLeft"] == "needs eyeBlinkLeft, which has no counterpart"
+    assert (cloned.shapes.displacements == 0).all()
+
+
 def test_features_share_the_motion_out(problem: Problem, arkit: ShapeSet) -> None:
     features = Features(problem.source)
     shares = features.shares(arkit["eyeBlinkRight"])

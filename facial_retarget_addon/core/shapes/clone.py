@@ -95,13 +95,15 @@ def clone_shapes(
     here, there = Features(problem.source), Features(problem.target)
     acts = {name: here.shares(move) for name, move in zip(shapes.names, shapes.displacements, strict=True)}
     absent = {name: lacking for name, shares in acts.items() if (lacking := missing(shares, there.has))}
-    found = _stilled(found, list(absent))
-    alone = _stilled(taken_apart(found, whole), list(absent))
+    needing = {one.name: need for one in whole for need in one.needs if need in absent and one.name not in absent}
+    still = [*absent, *needing]
+    alone = _stilled(taken_apart(_stilled(found, still), whole), still)
     rows = _rows(problem, shapes, alone, whole, result.per_frame)
     lost = {
         name: f"acts on the {listed_features(acts[name], lacking)}, which the target lacks"
         for name, lacking in absent.items()
     }
+    lost |= {name: f"needs {need}, which has no counterpart" for name, need in needing.items()}
     for name, own, moved in zip(shapes.names, shapes.largest(), alone.largest(), strict=True):
         if name not in lost and own > STILL * source.size and moved <= STILL * target.size:
             lost[name] = f"acts on the {listed_features(acts[name], list(acts[name]))} alone, which moves nothing here"

@@ -20,6 +20,8 @@ SLIGHTLY = 0.01
 """A smaller share does not count."""
 TOLD = 0.3
 """A feature is told of if its share is this part of the largest one's."""
+AREAS = ("cheek", "forehead", "ear", "neck")
+"""Features that a head has with or without points there."""
 EYEBALLS = (eyeball_name("left"), eyeball_name("right"))
 _IN_MOUTH = {LOWER: "mouth", UPPER: "mouth", BOTH: "mouth", ACROSS: "mouth", TONGUE: "tongue"}
 _JAW = ("2.1", "2.10", "2.11", "2.12", "2.13", "2.14")
@@ -88,12 +90,14 @@ def missing(shares: Mapping[str, float], has: frozenset[str]) -> list[str]:
     """The features that a shape acts on mostly and that a head lacks; none where the head has enough of them.
 
     Eyeballs that it lacks count only for a shape that acts on nothing else: lids go with a gaze on a head without
-    eyeballs too. An eyeball that it has is enough: it turns on a head without lids.
+    eyeballs too. An eyeball that it has is enough: it turns on a head without lids. `AREAS` are on every head: they
+    count only for a shape that acts on nothing else.
     """
     slight = {feature: share for feature, share in shares.items() if share >= SLIGHTLY}
     if any(feature in EYEBALLS and feature in has for feature in slight):
         return []
-    counted = {feature: share for feature, share in slight.items() if feature not in EYEBALLS} or slight
+    around = {feature: share for feature, share in slight.items() if feature not in EYEBALLS} or slight
+    counted = {feature: share for feature, share in around.items() if feature not in AREAS} or around
     lacking = [feature for feature in counted if feature not in has]
     enough = sum(counted[feature] for feature in lacking) >= MOSTLY * sum(counted.values())
     return lacking if lacking and enough else []
