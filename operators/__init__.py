@@ -40,6 +40,7 @@ CLASSES = (
     clone_shapes.FACIAL_RETARGET_OT_resolve_shapes,
     jobs.FACIAL_RETARGET_OT_load_job,
     jobs.FACIAL_RETARGET_OT_save_job,
+    jobs.FACIAL_RETARGET_OT_save_clone_job,
     make_shapes.FACIAL_RETARGET_OT_make_shapes,
     shape_files.FACIAL_RETARGET_OT_load_shapes,
     shape_files.FACIAL_RETARGET_OT_save_shapes,

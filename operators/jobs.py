@@ -7,7 +7,7 @@ from bpy.types import Context, Operator
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
 from .errors import tells_user
-from .polls import OnTask, in_mode
+from .polls import OnCloning, OnTask, in_mode
 
 
 class FACIAL_RETARGET_OT_load_job(Operator, ImportHelper):
@@ -55,5 +55,24 @@ class FACIAL_RETARGET_OT_save_job(OnTask, Operator, ExportHelper):
         from ..facial_retarget_addon.bridge.job import save_job_steps
 
         finished(save_job_steps(context, Path(self.filepath)))
+        self.report({"INFO"}, f"Saved {self.filepath}")
+        return {"FINISHED"}
+
+
+class FACIAL_RETARGET_OT_save_clone_job(OnCloning, Operator, ExportHelper):
+    """Save the cloning as a job for the command line, with the heads, shapes and corrections that it needs beside it"""
+
+    bl_idname = "facial_retarget.save_clone_job"
+    bl_label = "Save Clone Job"
+
+    filename_ext = ".toml"
+    filter_glob: StringProperty(default="*.toml", options={"HIDDEN"})
+
+    @tells_user
+    def execute(self, context: Context) -> set[str]:
+        """Write the files, the job itself last."""
+        from ..facial_retarget_addon.bridge.clone_job import save_clone_job
+
+        save_clone_job(context, Path(self.filepath))
         self.report({"INFO"}, f"Saved {self.filepath}")
         return {"FINISHED"}

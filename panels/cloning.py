@@ -46,6 +46,7 @@ class FACIAL_RETARGET_PT_cloning(RetargetTab, Panel):
         layout.prop(cloning, "method")
         layout.operator("facial_retarget.clone_shapes", icon="SHAPEKEY_DATA")
         layout.operator("facial_retarget.add_actor", icon="ADD")
+        layout.operator("facial_retarget.save_clone_job")
 
 
 class FACIAL_RETARGET_PT_clone_settings(RetargetTab, Panel):

@@ -11,6 +11,7 @@ from bpy.types import Object
 
 from ..core.shapes.shape_set import ShapeSet
 from .clone_report import figures_note, worst_first
+from .clone_wishes import Origin
 from .donors import Donor
 from .head_shapes import Plan, put_shapes
 from .heads import Head
@@ -18,13 +19,6 @@ from .key_animation import copy_animation
 from .key_drivers import copy_drivers
 from .key_sets import KeyTraits
 from .shape_keys import find_key, key_displacement
-
-
-class Origin(NamedTuple):
-    """The donor's shapes that a cloned one comes from: added up, and cut to a half unless the side is WHOLE."""
-
-    names: tuple[str, ...]
-    side: str = "WHOLE"
 
 
 class Copying(NamedTuple):

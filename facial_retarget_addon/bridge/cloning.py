@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from glob import escape
 from itertools import chain
 from typing import Any, NamedTuple
@@ -13,15 +14,14 @@ from ..core.arrays import Progress
 from ..core.errors import RetargetError
 from ..core.methods.settings import Settings
 from ..core.problem import Problem
-from ..core.shapes.choose import EVERY, chosen
 from ..core.shapes.clone import ClonedShapes, clone_shapes
 from ..core.shapes.combinations import find_correctives
-from ..core.shapes.names import arkit_name
-from ..core.shapes.prepare import Preparation, prepare_shapes
-from ..core.shapes.sides import arkit_merges, has_side, left_share, side_names
+from ..core.shapes.prepare import prepare_shapes
+from ..core.shapes.sides import left_share
 from .background import Steps, in_thread, part
 from .clone_report import write_report
-from .clones import Clones, Copying, Origin, write_clones
+from .clone_wishes import origins, preparation, wanted_names
+from .clones import Clones, Copying, write_clones
 from .donors import Donor, donor_steps
 from .head_shapes import plan_names
 from .heads import Head, head_parts, read_head
@@ -56,7 +56,7 @@ def clone_steps(context: Context) -> Steps[Outcome]:
     settings = read_method_settings(task, cloning.method)
     faces = target_faces(context)
     donor = yield from part(donor_steps(task), 0.0, MAKING)
-    names = chosen(donor.names, patterns(cloning.keep) or EVERY, patterns(cloning.drop))
+    names = wanted_names(donor.names, cloning)
     heads = [read_head(face) for face in faces]
     check_heads(donor, heads)
     works = [cloner(donor, head, names, cloning.method, settings, cloning) for head in heads]
@@ -105,7 +105,7 @@ def cloner(
     """
     needed = {need for one in find_correctives(donor.names) if one.name in names for need in one.needs}
     shapes = donor.shapes([name for name in donor.names if name in names or name in needed], head.groups)
-    how = preparation(names, cloning)
+    how = replace(preparation(cloning), keep=tuple(escape(name) for name in names), drop=())
     problem = Problem(donor.face, head.face, make_caster=available_caster())
 
     def clone(progress: Progress) -> Clones:
@@ -120,34 +120,6 @@ def cloner(
 def row_of(cloned: ClonedShapes) -> dict[str, dict[str, Any]]:
     """Name of a shape -> its row."""
     return {row["name"]: row for row in cloned.rows}
-
-
-def preparation(names: Sequence[str], cloning: PropertyGroup) -> Preparation:
-    """What the panel wants made of some of a donor's shapes."""
-    return Preparation(
-        keep=tuple(escape(name) for name in names),
-        arkit_wholes=cloning.sides == "MERGE",
-        split=EVERY if cloning.sides == "SPLIT" else (),
-        feather=cloning.feather,
-        arkit_names=cloning.arkit_names,
-    )
-
-
-def origins(names: Sequence[str], how: Preparation) -> dict[str, Origin]:
-    """What `prepare_shapes` may make of some shapes -> where it comes from."""
-    wholes = arkit_merges(names) if how.arkit_wholes else {}
-    found = {name: Origin((name,)) for name in names} | {whole: Origin(halves) for whole, halves in wholes.items()}
-    if how.split:
-        left, right = side_names(names)
-        halves = {name: origin for name, origin in found.items() if not has_side(name)}
-        found |= {name + left: Origin(origin.names, "LEFT") for name, origin in halves.items()}
-        found |= {name + right: Origin(origin.names, "RIGHT") for name, origin in halves.items()}
-    return found | {arkit_name(name) or name: origin for name, origin in found.items() if how.arkit_names}
-
-
-def patterns(text: str) -> tuple[str, ...]:
-    """Patterns that stand in a text with commas between them."""
-    return tuple(word.strip() for word in text.split(",") if word.strip())
 
 
 def target_faces(context: Context) -> list[Object]:

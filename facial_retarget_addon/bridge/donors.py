@@ -116,16 +116,26 @@ def donor_steps(task: PropertyGroup) -> Steps[Donor]:
 
     Raises
     ------
-    RetargetError : if no source is chosen, it has no shape keys, or no set of the actor is chosen.
+    RetargetError : as `read_source_head`, or if no set of the actor is chosen.
     """
     if task.cloning.donor == "ACTOR":
         return (yield from actor_steps(task.cloning.actor_sets))
+    return HeadDonor(read_source_head(task))
+
+
+def read_source_head(task: PropertyGroup) -> Head:
+    """The head whose shape keys are cloned.
+
+    Raises
+    ------
+    RetargetError : if no source is chosen, or it has no shape keys.
+    """
     if task.source is None:
         raise RetargetError("no source is chosen, expected a mesh object under Faces, or the built-in actor")
     head = read_head(task.source)
     if not head.key_names():
         raise RetargetError(f"object {head.name!r} has no shape keys beside its Basis, expected some to clone")
-    return HeadDonor(head)
+    return head
 
 
 def actor_steps(sets: Collection[str]) -> Steps[ActorDonor]:

@@ -14,6 +14,7 @@ from ..core.mesh import TriMesh
 from ..core.parts.kinds import NAMED_KINDS, NamedParts
 from ..core.points import FeaturePoints
 from ..core.problem import Face
+from ..files.mesh_file import MeshFile
 from .key_sets import check_relative, group_weights, key_names, masked_displacement
 from .meshes import read_positions, read_surface, stretch
 from .points import read_points
@@ -34,6 +35,7 @@ class Head:
     things : the face object, then its parts.
     starts : (n + 1,) the first vertex of each object among the head's, and how many there are.
     linear : (n, 3, 3) displacements in an object's own coordinates to the head's, which are the face space of the face.
+    file : the artist's polygons of all objects, on their vertices one after the other.
     face : mesh, points and named parts for the core.
     untold : parts whose role is to be told by where they lie.
     """
@@ -41,6 +43,7 @@ class Head:
     things: tuple[Object, ...]
     starts: IntArray
     linear: FloatArray
+    file: MeshFile
     face: Face
     untold: tuple[Object, ...] = ()
 
@@ -100,19 +103,15 @@ def read_head(face: Object) -> Head:
     for thing in things:
         check_relative(thing)
     matrices = [_own_to_head(face, thing) for thing in things]
-    meshes = [_mesh(thing, matrix) for thing, matrix in zip(things, matrices, strict=True)]
-    starts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
-    polygons = np.cumsum([0, *(len(thing.data.polygons) for thing in things)])
-    mesh = TriMesh(
-        np.concatenate([mesh.vertices for mesh in meshes]),
-        np.concatenate([mesh.faces + first for mesh, first in zip(meshes, starts, strict=False)]),
-        np.concatenate([mesh.polygons + first for mesh, first in zip(meshes, polygons, strict=False)]),
-    )
+    files = [_surface(thing, matrix) for thing, matrix in zip(things, matrices, strict=True)]
+    starts = np.cumsum([0, *(len(file.mesh.vertices) for file in files)])
+    file = _joined(files, starts)
     return Head(
         things,
         starts,
         np.stack([matrix[:3, :3] for matrix in matrices]),
-        Face(mesh, _points(things, starts), named_parts=_named_parts(things, starts)),
+        file,
+        Face(file.mesh, _points(things, starts), named_parts=_named_parts(things, starts)),
         tuple(part.thing for part in face.facial_retarget.parts if part.role == BY_PLACE and part.thing in things),
     )
 
@@ -146,9 +145,25 @@ def _own_to_head(face: Object, thing: Object) -> FloatArray:
     return to_face @ np.linalg.solve(world, own)
 
 
-def _mesh(thing: Object, matrix: FloatArray) -> TriMesh:
+def _surface(thing: Object, matrix: FloatArray) -> MeshFile:
     places = read_positions(thing.data).astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
-    return read_surface(thing, places, bool(np.linalg.det(matrix[:3, :3]) < 0)).mesh
+    return read_surface(thing, places, bool(np.linalg.det(matrix[:3, :3]) < 0))
+
+
+def _joined(files: Sequence[MeshFile], starts: IntArray) -> MeshFile:
+    """Several meshes as one, with UVs if all have them."""
+    if len(files) == 1:
+        return files[0]
+    polygons = np.cumsum([0, *(len(file.counts) for file in files)])
+    mesh = TriMesh(
+        np.concatenate([file.mesh.vertices for file in files]),
+        np.concatenate([file.mesh.faces + first for file, first in zip(files, starts, strict=False)]),
+        np.concatenate([file.mesh.polygons + first for file, first in zip(files, polygons, strict=False)]),
+    )
+    counts = np.concatenate([file.counts for file in files])
+    corners = np.concatenate([file.corners + first for file, first in zip(files, starts, strict=False)])
+    uvs = [file.uvs for file in files if file.uvs is not None]
+    return MeshFile(mesh, counts, corners, np.concatenate(uvs) if len(uvs) == len(files) else None)
 
 
 def _named_parts(things: Sequence[Object], starts: IntArray) -> dict[str, IntArray]:

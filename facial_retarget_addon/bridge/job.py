@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from math import radians
 from pathlib import Path
-from typing import TypeVar
 
 import bpy
 from bpy.types import Context, Object
@@ -20,18 +18,17 @@ from ..files.mesh_file import MeshFile
 from ..files.meshes import write_mesh
 from ..files.points import write_points as write_points_file
 from ..files.run import read_inputs
-from ..files.whole import Aside, written_whole
+from ..files.whole import written_whole
 from .background import Steps, part
 from .bake import write_frames
 from .base_object import show_triangles
+from .beside import Beside
 from .examples import write_example
 from .meshes import new_face, read_face
 from .performance import read_frames
 from .points import write_points
 from .settings import read_task_settings, write_task_settings
 from .task import frame_range, read_problem
-
-T = TypeVar("T")
 
 
 def save_job_steps(context: Context, path: Path) -> Steps[None]:
@@ -46,7 +43,7 @@ def save_job_steps(context: Context, path: Path) -> Steps[None]:
     frames = yield from part(read_frames(context, task.source, frame_range(context)), 0.0, 0.8)
     yield 0.8, "Writing"
     with written_whole() as aside:
-        files = _Beside(path, aside)
+        files = _FaceFiles(path, aside)
         source, target = (
             files.face("source", task.source, problem.source),
             files.face("target", task.target, problem.target),
@@ -67,25 +64,16 @@ def save_job_steps(context: Context, path: Path) -> Steps[None]:
         write_job(job, aside.place(path))
 
 
-class _Beside:
-    """Writes files beside a job file, named after it."""
-
-    def __init__(self, job: Path, aside: Aside) -> None:
-        self._job, self._aside = job, aside
-
-    def path(self, name: str) -> Path:
-        return self._job.with_name(f"{self._job.stem}_{name}")
-
-    def add(self, name: str, write: Callable[[T, Path], None], content: T) -> Path:
-        """Write one file; returns where it will appear."""
-        write(content, self._aside.place(self.path(name)))
-        return self.path(name)
+class _FaceFiles(Beside):
+    """The files of a task's faces."""
 
     def face(self, role: str, thing: Object, face: Face) -> FaceFiles:
+        """Write a face's neutral and points."""
         neutral = self.add(f"{role}.obj", write_mesh, read_face(thing, face.mesh.vertices))
         return FaceFiles(neutral, self.add(f"{role}_points.json", write_points_file, face.points))
 
     def example(self, problem: Problem, name: str) -> ExampleFiles:
+        """Write an example of both faces."""
         number = 1 + list(problem.source.examples).index(name)
         source, target = (
             self.add(

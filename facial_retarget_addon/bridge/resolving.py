@@ -19,7 +19,8 @@ from ..core.shapes.shape_set import ShapeSet
 from ..core.shapes.sides import left_share
 from .background import Steps, part
 from .clone_report import write_report
-from .clones import Clones, Origin, fingerprint, write_shapes
+from .clone_wishes import Origin
+from .clones import Clones, fingerprint, write_shapes
 from .cloning import COMPUTING, MAKING, check_heads, computed, named_warnings, row_of, target_faces
 from .donors import Donor, donor_steps
 from .heads import Head, read_head
@@ -43,6 +44,11 @@ def find_corrected(head: Head) -> list[str]:
         for entry in _entries(head)
         if entry.corrected or (entry.shape and fingerprint(head, entry.name) != entry.shape)
     ]
+
+
+def cloned_origins(head: Head) -> dict[str, Origin]:
+    """Name of each cloned shape key of a head -> where it comes from."""
+    return {entry.name: Origin(tuple(one.name for one in entry.origins), entry.side) for entry in _entries(head)}
 
 
 def mark_corrected(context: Context) -> int:
@@ -101,7 +107,7 @@ def _lesson(donor: Donor, head: Head) -> Lesson:
     ------
     RetargetError : if it has none, nothing else, or keys of which the donor does not know where they come from.
     """
-    origins = {entry.name: Origin(tuple(o.name for o in entry.origins), entry.side) for entry in _entries(head)}
+    origins = cloned_origins(head)
     corrected = find_corrected(head)
     if not origins:
         raise RetargetError(f"object {head.name!r} has no cloned shape keys, expected some of which one is corrected")

@@ -10,7 +10,6 @@ from bpy.types import Object
 from ..core.errors import RetargetError
 from ..core.shapes.shape_set import ShapeSet
 from ..files.animation_table import read_table_parameters
-from ..files.mesh_file import MeshFile
 from ..files.shape_files import add_shapes, read_shapes
 from ..files.whole import written_whole
 from .head_shapes import plan_names, put_shapes
@@ -38,7 +37,7 @@ def save_shapes(face: Object, path: Path) -> int:
         raise RetargetError(f"object {face.name!r} has no shape keys beside its Basis, expected some to save")
     shapes = ShapeSet(tuple(names), head.displacements(names))
     with written_whole() as aside:
-        add_shapes(aside, shapes, path, MeshFile.from_mesh(head.face.mesh))
+        add_shapes(aside, shapes, path, head.file)
     return len(names)
 
 
