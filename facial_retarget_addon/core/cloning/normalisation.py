@@ -8,9 +8,6 @@ from scipy.spatial.distance import cdist
 
 from ..arrays import FloatArray
 
-_NEAR = 1e-6
-"""Share of the points' extent within which a vertex lies at a point."""
-
 
 def vertex_lengths(
     vertices: FloatArray, positions: FloatArray, point_lengths: FloatArray, smooth: bool = True
@@ -22,17 +19,24 @@ def vertex_lengths(
     vertices : (V, 3) of the neutral.
     positions : (P, 3) of the points on it.
     point_lengths : (P, 3) of the points, from `mpeg4.regions.point_lengths`.
-    smooth : all points count, by the inverse fourth power of their distance; False takes the closest one's, so that
-        motion jumps where the regions meet.
+    smooth : the biharmonic spline of the lengths' logarithms, within the range of the points' lengths; False takes the
+        closest point's, so that motion jumps where the regions meet.
 
     References
     ----------
-    Pandzic 2001, "Normalizing the face": N(FP) of the closest feature point; Shepard 1968 for the smooth weights.
+    Pandzic 2001, "Normalizing the face": N(FP) of the closest feature point; Duchon 1977 for the spline.
     """
     if not smooth:
         closest: FloatArray = point_lengths[cKDTree(positions).query(vertices)[1]]
         return closest
-    near = _NEAR * np.ptp(positions, axis=0).max()
-    weights = 1 / (np.square(cdist(vertices, positions)) + near**2) ** 2
-    blended: FloatArray = weights @ point_lengths / weights.sum(axis=1)[:, None]
-    return blended
+    size = max(float(np.ptp(positions, axis=0).max()), 1e-300)
+    count = len(positions)
+    system = np.ones((count + 1, count + 1))
+    system[:count, :count] = cdist(positions, positions) / size
+    system[count, count] = 0.0
+    logarithms = np.log(point_lengths)
+    # Least squares: lips that touch have two points in one place.
+    weights = np.linalg.lstsq(system, np.concatenate([logarithms, np.zeros((1, 3))]), rcond=None)[0]
+    spline = cdist(vertices, positions) / size @ weights[:count] + weights[count]
+    lengths: FloatArray = np.exp(np.clip(spline, logarithms.min(axis=0), logarithms.max(axis=0)))
+    return lengths
