@@ -47,12 +47,6 @@ class RigidMotion(NamedTuple):
         turns = closest_rotations(self.turns + part[:, None] * (other.turns - self.turns))[0]
         return RigidMotion(turns, self.shifts + part * (other.shifts - self.shifts))
 
-    @property
-    def drop(self) -> FloatArray:
-        """(F,) how far the jaw turns down, in radians."""
-        down: FloatArray = np.arcsin(np.clip(-self.turns[:, 1, 2], -1, 1))
-        return down
-
 
 class BoneReader:
     """Reads the motion of what is as stiff as bone, such as teeth.
@@ -66,9 +60,15 @@ class BoneReader:
         self.vertices = vertices
         self._away = places[vertices] - hinge
 
+    @property
+    def middle(self) -> FloatArray:
+        """(1, 3) how far the middle of the part lies from the hinge."""
+        middle: FloatArray = self._away.mean(axis=0, keepdims=True)
+        return middle
+
     def motion(self, moved: FloatArray) -> RigidMotion:
         """The rigid motion nearest to displacements (F, n, 3) of the vertices, in the head's axes."""
-        middle, shift = self._away.mean(axis=0), moved.mean(axis=1)
+        middle, shift = self.middle[0], moved.mean(axis=1)
         now = self._away - middle + moved - shift[:, None]
         turns = closest_rotations(np.einsum("fni,nj->fij", now, self._away - middle))[0]
         # What rests must not turn by rounding.

@@ -20,9 +20,9 @@ from .known_head import KnownHead
 
 IN_MOUTH = (UPPER, *WITH_JAW)
 """Kinds of parts that jaw and skull carry."""
-BEHIND = (np.radians(4.0), np.radians(10.0))
-"""Teeth of a source whose chin turns down farther than they do by more than the first are left behind, wholly from the
-second on. Muscles turn a chin down by less; teeth that move drop farther than the chin, which is soft."""
+BEHIND = (0.07, 0.2)
+"""Teeth of a source whose chin shows them to drop farther than they do, by more than the first in eye separations, are
+left behind, wholly from the second on. Muscles lower a chin by less; teeth that move drop farther than a soft chin."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,7 +58,7 @@ class Mouth:
     riders : (n,) vertices of the target. away : (n, 3) from the target's hinge. share : (n, 1) of the jaw's motion.
     chins : read the jaw off the source's and the target's skin.
     jaw, skull : read the source's teeth; None where there are none.
-    scale : (3,) target lengths per source length along the heads' axes.
+    scale : (3,) target lengths per source length along the heads' axes. unit : distance of the source's eyes.
     """
 
     axes: tuple[FloatArray, FloatArray]
@@ -71,6 +71,7 @@ class Mouth:
     skull: BoneReader | None
     tongues: Tongues | None
     scale: FloatArray
+    unit: float
 
     def add_to(self, displacements: FloatArray, frames: FloatArray) -> FloatArray:
         """Target displacements (F, Vt, 3) of the skin with the mouth's added, in place, for frames (F, Vs, 3)."""
@@ -79,7 +80,8 @@ class Mouth:
         jaw = theirs.motion(displacements[:, theirs.vertices].astype(np.float64) @ self.axes[1].T)
         if self.jaw is not None:
             shown, seen = seen, self._seen(self.jaw, frames)
-            left = np.clip((shown.drop - seen.drop - BEHIND[0]) / (BEHIND[1] - BEHIND[0]), 0.0, 1.0)
+            behind = (seen.displacements(self.jaw.middle) - shown.displacements(self.jaw.middle))[:, 0, 1]
+            left = np.clip((behind / self.unit - BEHIND[0]) / (BEHIND[1] - BEHIND[0]), 0.0, 1.0)
             jaw = self._scaled(seen).towards(jaw, left * left * (3 - 2 * left))
         moved = self.share * jaw.displacements(self.away)
         if self.skull is not None:
@@ -151,6 +153,7 @@ def fit_mouth(source: KnownHead, target: KnownHead, parts: Sequence[Part]) -> Mo
         skull,
         _tongues(source, target, np.sort(tongue), riders, hinge),
         lengths[1] / lengths[0],
+        source.unit,
     )
 
 
