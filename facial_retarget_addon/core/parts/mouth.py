@@ -11,6 +11,7 @@ import scipy.sparse as sp
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..closest_point import SurfaceFinder
 from ..mesh import TriMesh
+from ..mpeg4.regions import region_units
 from ..points import place_matrix
 from .find import Part
 from .follow import WITH_JAW, jaw_share
@@ -139,7 +140,7 @@ def fit_mouth(source: KnownHead, target: KnownHead, parts: Sequence[Part]) -> Mo
         lower = np.flatnonzero(jaw_share(source, source.parts) == 1)
         lower = np.setdiff1d(lower, source.vertices((TONGUE,)))
     jaw, skull = (_bone(source, vertices, hinge) for vertices in (lower, source.vertices((UPPER,))))
-    lengths = [np.array([head.fapu.mw, head.fapu.mns, head.fapu.mns]) for head in (source, target)]
+    lengths = [np.array([head.fapu.length(unit) for unit in region_units("9.9")]) for head in (source, target)]
     away = target.places[riders] - there
     tongue = np.concatenate([np.empty(0, np.int64), *(part.vertices for part in inside if part.kind == TONGUE)])
     return Mouth(
@@ -170,6 +171,7 @@ def _tongues(
     if not len(tongue) or not held.any():
         return None
     boxes = [head.places[vertices] for head, vertices in ((source, ours), (target, tongue))]
+    lengths = [np.array([head.fapu.length(unit) for unit in region_units("6.1")]) for head in (source, target)]
     low = [box.min(axis=0) for box in boxes]
     size = [
         np.maximum(np.ptp(box, axis=0), 1e-6 * head.unit) for box, head in zip(boxes, (source, target), strict=True)
@@ -178,4 +180,4 @@ def _tongues(
     found = SurfaceFinder(laid, np.flatnonzero(held)).closest((boxes[1] - low[1]) / size[1])
     row = np.searchsorted(ours, source.mesh.faces[found.face])
     matrix = place_matrix(row, found.weights, len(ours))
-    return Tongues(ours, source.places[ours] - hinge, np.searchsorted(riders, tongue), matrix, size[1] / size[0])
+    return Tongues(ours, source.places[ours] - hinge, np.searchsorted(riders, tongue), matrix, lengths[1] / lengths[0])
