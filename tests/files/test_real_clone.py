@@ -80,6 +80,44 @@ def test_a_whole_set_goes_onto_a_head(name: str, folder: Path) -> None:
         assert not lost
 
 
+@pytest.mark.parametrize("name", HEADS)
+def test_the_built_in_actor_gives_its_shapes_to_a_head(name: str, folder: Path, shared_data: Path) -> None:
+    job = folder / f"actor_to_{name}.toml"
+    job.write_text(
+        'version = 1\n[source]\nactor = ["arkit", "visemes", "expressions"]\n'
+        f'[[targets]]\nneutral = "{name}.npz"\npoints = "{name}.json"\nshapes = "{name}_acted.npz"\n'
+        f'report = "{name}_acted.json"\n'
+    )
+    assert main(["clone", str(job), "--quiet"]) == 0
+    report = json.loads((folder / f"{name}_acted.json").read_text())
+    mesh = read_mesh(folder / f"{name}.npz").mesh
+    shapes = read_shapes(folder / f"{name}_acted.npz", mesh)
+    assert len(shapes) == 72
+    lost = report["without_counterpart"]
+    if name in ("ogre", "robot"):
+        assert lost
+        return
+    assert not lost
+    assert sum(row["torn_edges"] for row in report["shapes"]) < 1e-4 * len(shapes) * len(mesh.edges)
+    points = read_points(folder / f"{name}.json", mesh)
+    before = points.positions(mesh.vertices)
+    moved = {shape: points.positions(mesh.vertices + shapes[shape]) - before for shape in shapes.names}
+    names = points.names
+    chin, left, right, brow = (names.index(point) for point in ("2.1", "8.3", "8.4", "4.1"))
+    width = np.linalg.norm(before[left] - before[right])
+    assert moved["jawOpen"][chin, 1] < -0.1 * width
+    assert moved["mouthSmileLeft"][left, 1] > 0.05 * width
+    assert np.linalg.norm(moved["mouthSmileLeft"][right]) < 0.3 * np.linalg.norm(moved["mouthSmileLeft"][left])
+    assert moved["mouthPucker"][left, 0] < -0.02 * width < 0.02 * width < moved["mouthPucker"][right, 0]
+    assert moved["browInnerUp"][brow, 1] > 0.02 * width
+    if name == "makehuman_dev":
+        with np.load(shared_data / f"{name}.npz") as data:
+            tongue = data["vert_part"] == list(data["part_names"]).index("tongue")
+        lip = before[names.index("2.3"), 2]
+        assert (mesh.vertices + shapes["tongueOut"])[tongue, 2].max() > lip + 0.1 * width
+        assert (mesh.vertices + shapes["jawOpen"])[tongue, 2].max() < lip
+
+
 @pytest.fixture(scope="module")
 def robot(shared_data: Path) -> TriMesh:
     with np.load(shared_data / "robot.npz") as data:
