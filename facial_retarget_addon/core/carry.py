@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 import scipy.sparse as sp
+from scipy.spatial.transform import Rotation
 
 from .arrays import FloatArray
 from .binding import Binding, apply_matrix
@@ -17,8 +18,10 @@ from .steering.residuals import spread_matrix
 Motion = Callable[[FloatArray], FloatArray]
 """Source frames (F, Vs, 3) float32 to target displacements (F, V, 3) float32, in target units."""
 
-_TURN_REACH = 0.35
+TURN_REACH = 0.35
 """Neighbourhood of a local frame, in eye separations."""
+_UNSURE = np.radians(5)
+"""By how much surfaces may turn against one another without the motion turning."""
 
 
 class LinearMotion:
@@ -122,6 +125,7 @@ def local_turns(
     base: FloatArray,
     separation: float,
     places: FloatArray,
+    reach: float = TURN_REACH,
 ) -> FloatArray:
     """(N, 3, 3) rotations at places, each the one that best takes the normals around it to the other face's.
 
@@ -135,6 +139,7 @@ def local_turns(
     base : (B, 3) neutral base vertices of the target, at which rotations are found.
     separation : the target's eye separation.
     places : (N, 3) on the target.
+    reach : of a neighbourhood, in eye separations.
 
     References
     ----------
@@ -142,14 +147,26 @@ def local_turns(
     """
     counts = np.flatnonzero(trust > 0)
     # In single precision from the middle of the face: the weights are smooth, and there are millions of them.
-    middle, unit = base.mean(axis=0), np.sqrt(2) * _TURN_REACH * separation
+    middle, unit = base.mean(axis=0), np.sqrt(2) * reach * separation
     here, there = ((part - middle) / unit for part in (base, vertices[counts]))
     squared = np.square(here).sum(axis=1)[:, None] + np.square(there).sum(axis=1) - 2 * (here @ there.T)
     near = np.exp(-squared.astype(np.float32)) * trust[counts]
     products = after[counts, :, None] * before[counts, None, :]
     at_base = _nearest_rotations((near @ products.reshape(-1, 9)).reshape(-1, 3, 3))
-    spread = spread_matrix(places, base, _TURN_REACH * separation)
+    spread = spread_matrix(places, base, reach * separation)
     return _nearest_rotations((spread @ at_base.reshape(-1, 9)).reshape(-1, 3, 3))
+
+
+def steady_turns(turns: FloatArray) -> FloatArray:
+    """Rotations (V, 3, 3) less by the angle `_UNSURE`, none where they turn by less.
+
+    Small turns tell how two artists shaped their heads, not where their muscles pull.
+    """
+    vectors = Rotation.from_matrix(turns).as_rotvec()
+    angle = np.linalg.norm(vectors, axis=1, keepdims=True)
+    less = vectors * np.maximum(angle - _UNSURE, 0.0) / np.maximum(angle, 1e-300)
+    steady: FloatArray = Rotation.from_rotvec(less).as_matrix()
+    return steady
 
 
 def _nearest_rotations(matrices: FloatArray) -> FloatArray:

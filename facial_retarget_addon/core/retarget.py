@@ -17,6 +17,7 @@ from .methods.base import fit
 from .methods.settings import LEVELED, Settings
 from .problem import Problem
 from .quality import Quality
+from .seams.gaps import SeamGaps
 
 BLOCK = 16
 """Frames that go through at once."""
@@ -66,7 +67,7 @@ def retarget(
     retargeter = fit(method, problem, settings, lambda share, what: progress(0.4 * share, what))
     fitted = perf_counter()
     result = np.empty((len(frames), len(target.vertices), 3), np.float32)
-    quality = Quality(source, target, retargeter.counterpart)
+    quality = Quality(source, target, retargeter.counterpart, SeamGaps(problem))
     measuring = 0.0
     for first in range(0, len(frames), BLOCK):
         progress(0.4 + 0.6 * first / len(frames), f"frame {first + 1} of {len(frames)}")

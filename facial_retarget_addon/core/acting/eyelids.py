@@ -7,21 +7,17 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import cKDTree
 
 from ..arrays import FloatArray, IntArray, unit_vectors
 from ..geodesic import shortcut_graph
 from ..mesh import TriMesh
 from ..points import FeaturePoints
+from ..seams.margins import lid_steps, shortest_way
 from .eyeballs import EYES, Eyeball
 
 PLACES = (0.15, 0.3, 0.5, 0.7, 0.85)
 """Where guides stand between a corner (0) and the lid's middle (1)."""
-OUTSIDE = 0.0
-"""A lid's skin looks away from the eyeball by more than this cosine; its margin looks sideways, its inside back."""
-INSIDE_COST = 20.0
-"""How much longer a way counts where the surface looks at the eyeball."""
 CLEAR = 1.02
 """A closed lid's margin is at least this many times as far from the centre as the eyeball's surface."""
 MOST_RISE = 0.08
@@ -89,11 +85,7 @@ def find_lids(mesh: TriMesh, points: FeaturePoints, eyeballs: Mapping[str, Eyeba
     steps = shortcut_graph(mesh) if eyeballs else None
     for side, ball in eyeballs.items():
         upper, lower, outer, inner, _ = EYES[side]
-        away = unit_vectors(mesh.vertices - ball.centre)
-        inwards = np.clip(OUTSIDE - np.einsum("vi,vi->v", mesh.vertex_normals, away), 0.0, 1.0)
-        # Where the skin ends at the opening, its end is the margin, whichever way it is rolled in.
-        inwards[mesh.boundary_vertices] = 0.0
-        graph = _costly(steps, 1 + INSIDE_COST * inwards)
+        graph = lid_steps(mesh, steps, ball)
         corners = points.subset([inner, outer]).positions(mesh.vertices)
         margins = {name: _margin(mesh, graph, points.subset([inner, name, outer]), corners) for name in (upper, lower)}
         for name, other in ((upper, lower), (lower, upper)):
@@ -116,13 +108,6 @@ class _Margin:
         return np.stack([np.interp(share, known, places[:, c]) for c in range(3)], axis=1)
 
 
-def _costly(graph: sp.csr_matrix, factors: FloatArray) -> sp.csr_matrix:
-    """The steps of a graph, each longer by the mean of its ends' factors (V,)."""
-    steps = graph.tocoo()
-    cost = steps.data * 0.5 * (factors[steps.row] + factors[steps.col])
-    return sp.csr_matrix((cost, (steps.row, steps.col)), shape=graph.shape)
-
-
 def _share(places: FloatArray, corners: FloatArray) -> FloatArray:
     line = corners[1] - corners[0]
     share: FloatArray = (places - corners[0]) @ line / (line @ line)
@@ -132,7 +117,7 @@ def _share(places: FloatArray, corners: FloatArray) -> FloatArray:
 def _margin(mesh: TriMesh, graph: sp.csr_matrix, three: FeaturePoints, corners: FloatArray) -> _Margin:
     """The margin through corner, middle, corner; only the middle where there is no way over the skin."""
     holder = three.holders
-    found = [_way(graph, int(holder[1]), int(holder[end])) for end in (0, 2)]
+    found = [shortest_way(graph, int(holder[1]), int(holder[end])) for end in (0, 2)]
     vertices = np.unique(np.concatenate([holder[1:2], *found]))
     share = _share(mesh.vertices[vertices], corners)
     inside = (share > 0) & (share < 1)
@@ -140,17 +125,6 @@ def _margin(mesh: TriMesh, graph: sp.csr_matrix, three: FeaturePoints, corners: 
     order = np.argsort(share)
     middle = float(_share(three.positions(mesh.vertices)[1:2], corners)[0])
     return _Margin(vertices[order], share[order], middle)
-
-
-def _way(graph: sp.csr_matrix, start: int, stop: int) -> IntArray:
-    """Vertices of the shortest way, none if there is no way."""
-    distance, before = dijkstra(graph, directed=False, indices=start, return_predecessors=True)
-    if not np.isfinite(distance[stop]):
-        return np.empty(0, np.int64)
-    way = [stop]
-    while before[way[-1]] >= 0:
-        way.append(int(before[way[-1]]))
-    return np.array(way, np.int64)
 
 
 def _lid(

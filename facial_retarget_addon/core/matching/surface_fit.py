@@ -13,7 +13,7 @@ from .control_nodes import control_nodes, spread_nodes
 
 _NODES = 400
 _SAMPLES = 800
-_STIFFNESS = (10.0, 3.0, 1.0, 0.3)
+_STIFFNESS = (10.0, 3.0, 1.0, 0.3, 0.1)
 """Weight of the bending against the samples, pass by pass: the surface comes stiff and softens."""
 _POINT_WEIGHT = 2.0
 """Weight of one given place against one sample: artists place points to a few per cent of the eye separation."""

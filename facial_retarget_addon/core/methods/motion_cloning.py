@@ -1,38 +1,63 @@
-"""Facial motion cloning (Pandzic 2001): the source's motion, vertex by vertex, in the units of each face (FAPU).
+"""Facial motion cloning (Pandzic 2001): the source's motion, vertex by vertex, onto a face of other proportions.
 
-The default finds the places that belong together in space, on the surfaces, and turns motion with them.
-`variant = "paper"` finds them in the plane onto which both heads are unrolled.
+The default finds the places that belong together in space, on the surfaces, scales motion as the heads are, turns it
+with them, closes lids as far as the source's, and smooths away what folds. `motion = "regional"` and `"compliant"`
+measure it in the units of each face (FAPU); `variant = "paper"` finds places in the plane onto which both heads are
+unrolled.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import scipy.sparse as sp
 
 from ..arrays import BoolArray, FloatArray, IntArray, Progress, no_progress, progress_part, unit_vectors
+from ..base.regions import eye_separation
 from ..binding import apply_matrix
-from ..carry import local_turns, turn
+from ..carry import local_turns, steady_turns, turn
 from ..cloning.cylinder import Cylinder
 from ..cloning.normalisation import vertex_lengths
 from ..cloning.plane_map import plane_map
 from ..errors import RetargetError
+from ..matching.coarse_source import smooth_coarse_source
 from ..matching.correspondence import correspond
 from ..mpeg4.fapu import Fapu, measure_fapu
 from ..mpeg4.head import head_axes
 from ..mpeg4.regions import OWN_PARTS, point_lengths
 from ..parts.carried_parts import CarriedParts, carried_parts
 from ..parts.report import still_components
-from ..points import common_names
+from ..points import FeaturePoints, common_names
 from ..problem import Problem
+from ..rigid import fit_similarity
+from ..seams.lids import LidSeams, find_eye_margins
 from ..steering.learned import Steering, SteeringBase, learn
+from ..unfolding import Unfolding
 from .settings import MotionCloningSettings
 
 _AGREEMENT = 0.3
 """Normals of matched places whose dot product is below this say nothing about how the surface turns."""
+_TURN_REACH = 0.28
+"""Neighbourhood of a local frame, in eye separations."""
+
+
+class Units(NamedTuple):
+    """How motion is measured on the source and given back on the target.
+
+    read : (3, 3) the source's displacements into the axes of its head. lengths : (Vs, 3) or (1, 3) their units there.
+    turns : (Vt, 3, 3) measured motion to displacements of the target.
+    rotation : (3, 3) of the source's head to the target's.
+    figures : for the report.
+    """
+
+    read: FloatArray
+    lengths: FloatArray
+    turns: FloatArray
+    rotation: FloatArray
+    figures: dict[str, Any]
 
 
 class MotionCloningRetargeter:
@@ -42,27 +67,19 @@ class MotionCloningRetargeter:
     ----------
     problem : the two faces.
     matrix : (Vt, Vs) takes values at the source's vertices to the target's.
-    read : (3, 3) the source's displacements into the axes of its head. lengths : (Vs, 3) their units there.
-    turns : (Vt, 3, 3) normalised motion to displacements of the target.
-    fapus : of source and target.
+    units : of the motion.
     parts : what follows the target's skin.
     """
 
-    def __init__(
-        self,
-        problem: Problem,
-        matrix: sp.csr_matrix,
-        read: FloatArray,
-        lengths: FloatArray,
-        turns: FloatArray,
-        fapus: list[Fapu],
-        parts: CarriedParts,
-    ) -> None:
-        self._problem, self._fapus, self._parts = problem, fapus, parts
+    def __init__(self, problem: Problem, matrix: sp.csr_matrix, units: Units, parts: CarriedParts) -> None:
+        self._problem, self._parts, self._figures = problem, parts, units.figures
+        self._smoothing: sp.csr_matrix | None = None
         self._steering: Steering | None = None
+        self._seams: LidSeams | None = None
+        self._unfolding: Unfolding | None = None
         self._taught = np.zeros(len(problem.target.mesh.vertices), bool)
-        self._matrix, self._turns = matrix.astype(np.float32), turns.astype(np.float32)
-        self._read, self._per_length = read.T.astype(np.float32), (1 / lengths).astype(np.float32)
+        self._matrix, self._turns = matrix.astype(np.float32), units.turns.astype(np.float32)
+        self._read, self._per_length = units.read.T.astype(np.float32), (1 / units.lengths).astype(np.float32)
         self._source = problem.source.mesh.vertices.astype(np.float32)
         self._target = problem.target.mesh.vertices.astype(np.float32)
 
@@ -74,14 +91,30 @@ class MotionCloningRetargeter:
         moved = self.plain(source.astype(np.float32))
         if self._steering is not None:
             moved = self._steering.steer(moved, source.astype(np.float32))
+        if self._unfolding is not None:
+            moved = self._unfolding.mend(moved, source)
         moved = self._parts.add_to(moved, source)
         moved += self._target
         return moved
 
     def plain(self, source: FloatArray) -> FloatArray:
         """Displacements (F, Vt, 3) float32 of frames (F, Vs, 3) float32, without examples, of the skin alone."""
-        normalised = ((source - self._source) @ self._read) * self._per_length
-        return turn(apply_matrix(self._matrix, normalised), self._turns)
+        acted = source - self._source
+        if self._smoothing is not None:
+            acted = apply_matrix(self._smoothing, acted)
+        moved = turn(apply_matrix(self._matrix, (acted @ self._read) * self._per_length), self._turns)
+        return moved if self._seams is None else self._seams.correct(moved, source - self._source)
+
+    def fair(self, seams: LidSeams, scale: float) -> None:
+        """From now on smooth what a coarse source does, close lids as far as the source's, and mend what folds.
+
+        scale : target units for one unit of the source.
+        """
+        source, target = self._problem.source.mesh, self._problem.target.mesh
+        self._unfolding = Unfolding(source, target, self.counterpart)
+        smoothing, matrix = smooth_coarse_source(self._matrix, source, target, scale)
+        self._smoothing = None if smoothing is None else smoothing.astype(np.float32)
+        self._matrix, self._seams = matrix.astype(np.float32), seams
 
     def learn(self, base: SteeringBase, strength: float) -> None:
         """Learn from the problem's examples; the parts go on following the skin.
@@ -123,7 +156,8 @@ class MotionCloningRetargeter:
             "source": {"vertices": len(source.mesh.vertices), "faces": len(source.mesh.faces)},
             "target": {"vertices": len(target.mesh.vertices), "faces": len(target.mesh.faces)},
             "points": len(common_names(source.points, target.points)),
-            "fapu": {"source": self._fapus[0].taken, "target": self._fapus[1].taken},
+            **self._figures,
+            "lids": [] if self._seams is None else list(self._seams.sides),
             "parts": self._parts.rows,
             "still_components": still,
             "examples": [] if self._steering is None else self._steering.figures,
@@ -136,8 +170,8 @@ def fit(problem: Problem, settings: MotionCloningSettings, progress: Progress = 
 
     Raises
     ------
-    RetargetError : if the faces have too few points in common, or points without MPEG-4 names, or the examples do not
-        fit the faces.
+    RetargetError : if the faces have too few points in common, or points without MPEG-4 names where units of regions
+        are asked for, or the examples do not fit the faces.
 
     References
     ----------
@@ -146,33 +180,77 @@ def fit(problem: Problem, settings: MotionCloningSettings, progress: Progress = 
     progress(0.0, "measuring both faces")
     source, target = problem.source.mesh, problem.target.mesh
     names = common_names(problem.source.points, problem.target.points)
-    places = [face.points.subset(names).positions(face.mesh.vertices) for face in (problem.source, problem.target)]
-    axes = [head_axes(names, there) for there in places]
-    fapus = [measure_fapu(names, there, axis) for there, axis in zip(places, axes, strict=True)]
     skin = [name for name in names if name not in OWN_PARTS]
     points = problem.source.points.subset(skin), problem.target.points.subset(skin)
-    marks = points[0].positions(source.vertices), points[1].positions(target.vertices)
-    smooth = settings.variant == "default"
-    lengths = [
-        vertex_lengths(mesh.vertices, mark, at_points, smooth)
-        for mesh, mark, at_points in zip((source, target), marks, point_lengths(skin, marks[0], fapus), strict=True)
-    ]
-    if smooth:
-        found = correspond(source, points[0], target, points[1], progress_part(progress, 0.0, 0.8))
-        matrix = found.matrix(source.faces, len(source.vertices))
-    else:
+    separations = eye_separation(source, points[0]), eye_separation(target, points[1])
+    published = settings.variant == "paper"
+    if published:
         progress(0.2, "laying both faces in one plane")
-        cylinders = [Cylinder(names, *measured) for measured in zip(places, axes, fapus, strict=True)]
+        cylinders = [Cylinder(names, *measured) for measured in _measured_heads(problem, names)]
         matrix = plane_map((source, target), points, cylinders, problem.make_caster)
-    progress(0.8, "preparing the motion")
-    turns = axes[1].T * lengths[1][:, None]
-    if settings.motion == "local":
-        turns = _local_turns(problem, matrix, axes[1].T @ axes[0], marks[1], fapus[1].es) @ turns
+    else:
+        found = correspond(source, points[0], target, points[1], progress_part(progress, 0.0, 0.7))
+        matrix = found.matrix(source.faces, len(source.vertices))
+    progress(0.7, "preparing the motion")
+    if published or settings.motion != "local":
+        units = _regional_units(problem, names, points, smooth=not published)
+    else:
+        units = _head_units(problem, points)
+    if settings.motion != "compliant":
+        turned = _local_turns(problem, matrix, units.rotation, points[1].positions(target.vertices), separations[1])
+        units = units._replace(turns=(turned if published else steady_turns(turned)) @ units.turns)
     parts = carried_parts(problem.source, problem.target, np.zeros(len(target.vertices), bool))
-    retargeter = MotionCloningRetargeter(problem, matrix, axes[0], lengths[0], turns, fapus, parts)
-    retargeter.learn(SteeringBase(source, target, *points, fapus[0].es, fapus[1].es), settings.example_strength)
+    retargeter = MotionCloningRetargeter(problem, matrix, units, parts)
+    if not published and settings.motion != "compliant":
+        scale = fit_similarity(points[0].positions(source.vertices), points[1].positions(target.vertices)).scale
+        retargeter.fair(_lid_seams(problem, points, units), scale)
+    progress(0.9, "learning from the examples")
+    retargeter.learn(SteeringBase(source, target, *points, *separations), settings.example_strength)
     progress(1.0, "fitted")
     return retargeter
+
+
+def _measured_heads(problem: Problem, names: Sequence[str]) -> list[tuple[FloatArray, FloatArray, Fapu]]:
+    """Places (P, 3) of the points, axes (3, 3) of the head and units of each face."""
+    heads = []
+    for face in (problem.source, problem.target):
+        places = face.points.subset(names).positions(face.mesh.vertices)
+        axes = head_axes(names, places)
+        heads.append((places, axes, measure_fapu(names, places, axes)))
+    return heads
+
+
+def _head_units(problem: Problem, points: tuple[FeaturePoints, FeaturePoints]) -> Units:
+    """One length for the whole head: the source's own, and the scale between both heads."""
+    faces = (problem.source, problem.target)
+    here, there = (part.positions(face.mesh.vertices) for part, face in zip(points, faces, strict=True))
+    across = fit_similarity(here, there)
+    turns = np.broadcast_to(across.scale * across.rotation, (len(problem.target.mesh.vertices), 3, 3))
+    return Units(np.eye(3), np.ones((1, 3)), turns, across.rotation, {"scale": across.scale})
+
+
+def _regional_units(
+    problem: Problem, names: Sequence[str], points: tuple[FeaturePoints, FeaturePoints], smooth: bool
+) -> Units:
+    """The lengths of the FAPs that act in each region of a face, along the axes of its head."""
+    meshes = problem.source.mesh, problem.target.mesh
+    (_, here, ours), (_, there, theirs) = _measured_heads(problem, names)
+    marks = [part.positions(mesh.vertices) for part, mesh in zip(points, meshes, strict=True)]
+    at_points = point_lengths(points[0].names, marks[0], [ours, theirs])
+    lengths = [
+        vertex_lengths(mesh.vertices, mark, units, smooth)
+        for mesh, mark, units in zip(meshes, marks, at_points, strict=True)
+    ]
+    figures = {"fapu": {"source": ours.taken, "target": theirs.taken}}
+    return Units(here, lengths[0], there.T * lengths[1][:, None], there.T @ here, figures)
+
+
+def _lid_seams(problem: Problem, points: tuple[FeaturePoints, FeaturePoints], units: Units) -> LidSeams:
+    """Lids that do what the source's do, in the units of the motion."""
+    meshes = problem.source.mesh, problem.target.mesh
+    ours, theirs = (find_eye_margins(mesh, part) for mesh, part in zip(meshes, points, strict=True))
+    measured = np.broadcast_to(units.read / units.lengths[:, :, None], (len(meshes[0].vertices), 3, 3))
+    return LidSeams(ours, theirs, meshes, measured, units.turns)
 
 
 def _local_turns(
@@ -184,4 +262,4 @@ def _local_turns(
     before, after = unit_vectors(carried) @ rotation.T, target.vertex_normals
     agree = np.einsum("vi,vi->v", before, after) > _AGREEMENT
     trust = target.vertex_areas * (agree & (np.asarray(matrix.sum(axis=1)).ravel() > 0.5))
-    return local_turns(before, after, target.vertices, trust, marks, separation, target.vertices)
+    return local_turns(before, after, target.vertices, trust, marks, separation, target.vertices, _TURN_REACH)

@@ -110,8 +110,9 @@ class MotionCloningSettings:
 
     motion: str = _setting(
         "local",
-        "local: motion turns with the surface; compliant: it keeps the axes of the heads, as MPEG-4's parameters do",
-        choices=("local", "compliant"),
+        "local: one scale for the heads, motion turns with the surface; regional: every region by its own size; "
+        "compliant: that along the axes of the heads, as MPEG-4's parameters want it",
+        choices=("local", "regional", "compliant"),
     )
     variant: str = _setting(
         "default",

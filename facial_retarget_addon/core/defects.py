@@ -1,0 +1,72 @@
+"""Torn edges and turned triangles of a retargeted frame: those that the source's frame does not have."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .arrays import BoolArray, FloatArray, IntArray, cross
+from .mesh import TriMesh
+
+TORN = 3.0
+"""An edge is torn where it is stretched beyond this many times its neutral length ..."""
+CALM = 1.5
+"""... while no source edge around its counterpart is stretched beyond this."""
+
+
+class Defects:
+    """Finds the defects of frames of one pair of faces.
+
+    Parameters
+    ----------
+    source, target : neutral faces.
+    counterpart : (Vt,) the source vertex nearest to each target vertex's counterpart, -1 for none.
+    """
+
+    def __init__(self, source: TriMesh, target: TriMesh, counterpart: IntArray) -> None:
+        self._source, self._target, self._counterpart = source, target, counterpart
+        self._face_vectors = target.face_vectors.astype(np.float32)
+        self._source_face_vectors = source.face_vectors.astype(np.float32)
+
+    def calm(self, source: FloatArray) -> BoolArray:
+        """(Vt,) whether no edge at the counterpart is stretched in a frame (Vs, 3); false where there is none."""
+        tight = np.ones(len(self._source.vertices) + 1, bool)
+        tight[self._source.edges[edge_stretch(self._source, source) > CALM].ravel()] = False
+        tight[-1] = False
+        calm: BoolArray = tight[self._counterpart]
+        return calm
+
+    def turned_at_counterpart(self, source: FloatArray) -> BoolArray:
+        """(Vt,) whether a face at the counterpart is turned over in a frame (Vs, 3) of the source."""
+        turned = np.zeros(len(self._source.vertices) + 1, bool)
+        turned[self._source.faces[turned_faces(self._source.faces, source, self._source_face_vectors)]] = True
+        at_counterpart: BoolArray = turned[self._counterpart]
+        return at_counterpart
+
+    def torn(self, target: FloatArray, calm: BoolArray) -> BoolArray:
+        """(E,) torn edges of a frame (Vt, 3)."""
+        i, j = self._target.edges.T
+        torn: BoolArray = self.stretched(target) & calm[i] & calm[j]
+        return torn
+
+    def stretched(self, target: FloatArray) -> BoolArray:
+        """(E,) edges of a frame (Vt, 3) that are torn if the source's are calm there."""
+        return edge_stretch(self._target, target) > TORN
+
+    def turned(self, target: FloatArray) -> BoolArray:
+        """(F,) faces of a frame (Vt, 3) that are turned over."""
+        return turned_faces(self._target.faces, target, self._face_vectors)
+
+
+def edge_stretch(mesh: TriMesh, positions: FloatArray) -> FloatArray:
+    """(E,) edge lengths over their neutral lengths; 1 for an edge without length."""
+    i, j = mesh.edges.T
+    gap = positions[i] - positions[j]
+    length = np.sqrt(np.einsum("ij,ij->i", gap, gap))
+    return np.divide(length, mesh.edge_lengths, out=np.ones(len(length)), where=mesh.edge_lengths > 1e-9 * mesh.size)
+
+
+def turned_faces(faces: IntArray, positions: FloatArray, neutral: FloatArray) -> BoolArray:
+    """(F,) faces (F, 3) whose normal at positions (V, 3) points away from their neutral one (F, 3)."""
+    a, b, c = (positions[faces[:, k]] for k in range(3))
+    turned: BoolArray = np.einsum("fi,fi->f", cross(b - a, c - a), neutral) < 0
+    return turned

@@ -1,0 +1,172 @@
+"""Lids that close as far as the source's: a linear correction of a carried motion, guide by guide."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+
+from ..acting.eyeballs import EYES, find_eyeballs
+from ..arrays import FloatArray, unit_vectors
+from ..binding import apply_matrix
+from ..geodesic import shortcut_graph
+from ..matching.surface_fill import HarmonicFill
+from ..mesh import TriMesh
+from ..mpeg4.fdps import FDPS
+from ..mpeg4.head import head_axes
+from ..points import FeaturePoints
+from .margins import GuidedMargin, guided_margin, has_points, lid_steps
+
+GUIDES = 3
+"""From a corner of the eye to the middle of a lid."""
+REACH = 0.5
+"""How far a correction reaches from the margin, in widths of the eye."""
+LEAST, MOST = 1 / 3, 3.0
+"""Bounds of the ratio between the openings of two eyes, in the scale of the heads."""
+THIN = 0.1
+"""Openings below this share of the eye's greatest tell no ratio."""
+_SLIGHT = 1e-3
+"""Shares of a correction below this are left out."""
+
+
+@dataclass(frozen=True, eq=False)
+class EyeMargins:
+    """Upper and lower margin of one eye, with guides opposite to one another."""
+
+    upper: GuidedMargin
+    lower: GuidedMargin
+
+    def openings(self, positions: FloatArray) -> FloatArray:
+        """(..., G, 3) from each guide of the lower margin to the one opposite, for positions (V, 3) or (F, V, 3)."""
+        if positions.ndim == 2:
+            gaps: FloatArray = self.upper.guides @ positions - self.lower.guides @ positions
+            return gaps
+        return apply_matrix((self.upper.guides - self.lower.guides).tocsr(), positions)
+
+    def mean(self, matrices: FloatArray) -> FloatArray:
+        """(G, 3, 3) of matrices (V, 3, 3) at the vertices: half-way between guides opposite to one another."""
+        flat = matrices.reshape(-1, 9)
+        halfway: FloatArray = 0.5 * (self.upper.guides @ flat + self.lower.guides @ flat).reshape(-1, 3, 3)
+        return halfway
+
+
+def find_eye_margins(mesh: TriMesh, points: FeaturePoints) -> dict[str, EyeMargins]:
+    """The margins of each eye (left, right) whose lids and corners are among the points.
+
+    The ways along the margins are those of `acting.eyelids`.
+    """
+    known = points.subset([name for name in points.names if name in FDPS])
+    wanted = {side: names for side, names in EYES.items() if has_points(known, names[:4])}
+    if not wanted:
+        return {}
+    balls = find_eyeballs(mesh, known, head_axes(known.names, known.positions(mesh.vertices)))
+    steps = shortcut_graph(mesh)
+    found: dict[str, EyeMargins] = {}
+    for side, (upper, lower, outer, inner, _) in wanted.items():
+        around = lid_steps(mesh, steps, balls[side])
+        margins = [
+            guided_margin(mesh, around, known.subset([outer, middle, inner]), GUIDES) for middle in (upper, lower)
+        ]
+        if margins[0] is not None and margins[1] is not None:
+            found[side] = EyeMargins(margins[0], margins[1])
+    return found
+
+
+class LidSeams:
+    """Corrects a carried motion so that the target's lids do what the source's do.
+
+    A guide of a margin moves as the source's guide, turned and scaled as the heads are; along the opening it moves by
+    the same share of its own eye's opening. What a carried motion misses of that is added at the margins and spread
+    over the lids, so that a lid that shuts on the source shuts on the target.
+
+    Parameters
+    ----------
+    source, target : margins by side; those of one face alone are left aside.
+    faces : the neutral meshes.
+    measured : (Vs, 3, 3) what displacements of the source are in units of the motion.
+    turns : (Vt, 3, 3) what those are in displacements of the target.
+    """
+
+    def __init__(
+        self,
+        source: dict[str, EyeMargins],
+        target: dict[str, EyeMargins],
+        faces: tuple[TriMesh, TriMesh],
+        measured: FloatArray,
+        turns: FloatArray,
+    ) -> None:
+        self.sides = tuple(side for side in source if side in target)
+        count = len(faces[1].vertices)
+        if not self.sides:
+            return
+        read, carried, maps = [], [], []
+        for side in self.sides:
+            ours, theirs = source[side], target[side]
+            mapped = _lid_maps(ours, theirs, faces, measured, turns)
+            for own, other in ((ours.upper, theirs.upper), (ours.lower, theirs.lower)):
+                read.append(own.guides)
+                carried.append(other.guides)
+                maps.append(mapped)
+        self._read, self._carried = (sp.vstack(rows).tocsr().astype(np.float32) for rows in (read, carried))
+        self._maps = np.concatenate(maps).astype(np.float32)
+        self._spread = _spread(faces[1], [target[side] for side in self.sides], count).astype(np.float32)
+
+    def correct(self, displacements: FloatArray, source: FloatArray) -> FloatArray:
+        """Target displacements (F, Vt, 3) float32, corrected in place, for the source's (F, Vs, 3)."""
+        if self.sides:
+            wanted = np.einsum("gij,fgj->fgi", self._maps, apply_matrix(self._read, source))
+            missed = wanted - apply_matrix(self._carried, displacements)
+            displacements += apply_matrix(self._spread, missed)
+        return displacements
+
+
+def _lid_maps(
+    ours: EyeMargins, theirs: EyeMargins, faces: tuple[TriMesh, TriMesh], measured: FloatArray, turns: FloatArray
+) -> FloatArray:
+    """(G, 3, 3) what a guide's displacement on the source becomes on the target.
+
+    K = T (I + (r - 1) e e'), T the turn and scale of the place, e the direction in which the source's eye opens there,
+    and r the ratio of the target's opening to the source's, both across the line between the corners.
+    """
+    turn = theirs.mean(turns) @ ours.mean(measured)
+    before, after = (_across_the_corners(eye, mesh.vertices) for eye, mesh in zip((ours, theirs), faces, strict=True))
+    gaps = [np.linalg.norm(gap, axis=1) for gap in (np.einsum("gij,gj->gi", turn, before), after)]
+    sizes = [gap + THIN * gap.max() for gap in gaps]
+    ratio = np.clip(sizes[1] / np.maximum(sizes[0], 1e-300), LEAST, MOST)
+    opens = unit_vectors(before)
+    stretch = np.eye(3) + (ratio - 1)[:, None, None] * opens[:, :, None] * opens[:, None, :]
+    maps: FloatArray = turn @ stretch
+    return maps
+
+
+def _across_the_corners(eye: EyeMargins, vertices: FloatArray) -> FloatArray:
+    """(G, 3) the openings, without what lies along the line between the eye's corners."""
+    margin = eye.upper.guides @ vertices
+    line = unit_vectors(margin[-1:] - margin[:1])
+    gaps = eye.openings(vertices)
+    across: FloatArray = gaps - (gaps @ line.T) * line
+    return across
+
+
+def _spread(mesh: TriMesh, eyes: list[EyeMargins], count: int) -> sp.csr_matrix:
+    """(V, guides) values at the guides of all margins to the vertices: over the margins, then fading into the lids."""
+    margins = [margin for eye in eyes for margin in (eye.upper, eye.lower)]
+    starts = np.cumsum([0] + [margin.guides.shape[0] for margin in margins])
+    rows, columns, weights = [], [], []
+    for margin, start in zip(margins, starts, strict=False):
+        entries = margin.spread.tocoo()
+        rows.append(margin.vertices[entries.row])
+        columns.append(entries.col + start)
+        weights.append(entries.data)
+    entries = np.concatenate(weights), (np.concatenate(rows), np.concatenate(columns))
+    at_margins = sp.csr_matrix(entries, shape=(count, starts[-1]))
+    # Corners belong to both margins.
+    owners = np.asarray(at_margins.sum(axis=1)).ravel()
+    at_margins = sp.diags(1 / np.maximum(owners, 1e-300)) @ at_margins
+    width = np.mean([np.linalg.norm(np.diff((eye.upper.guides @ mesh.vertices)[[0, -1]], axis=0)) for eye in eyes])
+    decay = mesh.vertex_edge_length / (REACH * width) ** 2
+    spread = (HarmonicFill(mesh, owners > 0, decay).matrix() @ at_margins).tocsr()
+    spread.data[np.abs(spread.data) < _SLIGHT] = 0.0
+    spread.eliminate_zeros()
+    return spread
