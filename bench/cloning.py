@@ -37,9 +37,13 @@ PEERS: Mapping[str, Callable[[Problem], Cloner]] = {
     "deformation transfer": AlignedTransfer,
 }
 OURS = ("hierarchical", "feature_points", "motion_cloning")
-BEST = "hierarchical"
-"""The method of ours whose errors must be smaller than every peer's."""
+BEST = "motion_cloning"
+"""The method of ours that must err less than every peer, and tear, fold and leave open no more than the best of them."""
 ERROR = "error"
+LIMITS = {"error on the face, median": 0.06, "error on the face, 90 %": 0.10}
+"""What it must reach besides."""
+UNBOUNDED = ("fit", "keys")
+"""Seconds have a bench of their own."""
 
 
 def rows() -> Iterator[Row]:
@@ -58,8 +62,9 @@ def rows() -> Iterator[Row]:
             yield Row(f"{name}: {row.what}", row.value, row.unit)
     for name in OURS:
         for row in _measured(pair, partial(fit, name, settings=SETTINGS[name]())):
-            bounded = name == BEST and row.what.startswith(ERROR)
-            yield Row(f"{name}: {row.what}", row.value, row.unit, best[row.what] if bounded else None)
+            bounded = name == BEST and not row.what.endswith(UNBOUNDED)
+            bound = min(best[row.what], LIMITS.get(row.what, np.inf)) if bounded else None
+            yield Row(f"{name}: {row.what}", row.value, row.unit, bound)
 
 
 def _measured(pair: RealPair, make: Callable[[Problem], Cloner]) -> Iterator[Row]:

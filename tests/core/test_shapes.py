@@ -426,7 +426,8 @@ def test_six_corrected_keys_bring_the_others_nearer_to_the_truth(shared_data: Pa
         miss = np.linalg.norm(found.subset(others).displacements[:, face] - wanted, axis=(1, 2))
         return float(np.median(miss / np.linalg.norm(wanted, axis=(1, 2))))
 
-    settings, correctives = MotionCloningSettings(), find_correctives(names)
+    # Units of regions leave more to learn: these two heads move alike though their eyes lie differently far apart.
+    settings, correctives = MotionCloningSettings("regional"), find_correctives(names)
     plain = clone_shapes("motion_cloning", real, settings, shapes, correctives)
     taught = resolve_shapes("motion_cloning", real, settings, shapes, truth.subset(TAUGHT), correctives)
     assert error(taught.shapes) < 0.9 * error(plain.shapes)

@@ -1,0 +1,216 @@
+"""Lids and lips: margins with guides, lids that close as far as the source's, gaps, folds, and coarse sources."""
+
+import numpy as np
+import pytest
+
+from facial_retarget_addon import demo
+from facial_retarget_addon.core.acting.eyeballs import EYES
+from facial_retarget_addon.core.defects import Defects
+from facial_retarget_addon.core.matching.coarse_source import smooth_coarse_source
+from facial_retarget_addon.core.matching.correspondence import correspond
+from facial_retarget_addon.core.mesh import TriMesh
+from facial_retarget_addon.core.methods import motion_cloning
+from facial_retarget_addon.core.methods.settings import MotionCloningSettings
+from facial_retarget_addon.core.points import FeaturePoints
+from facial_retarget_addon.core.problem import Face, Problem
+from facial_retarget_addon.core.seams.gaps import SeamGaps
+from facial_retarget_addon.core.seams.lids import GUIDES, LidSeams, find_eye_margins
+from facial_retarget_addon.core.unfolding import Unfolding
+
+
+@pytest.fixture(scope="module")
+def actor() -> demo.DemoFace:
+    return demo.actor(vertices=6_000)
+
+
+@pytest.fixture(scope="module")
+def child() -> Face:
+    """A head whose eyes are half as open again as the actor's, for its size."""
+    actor = demo.actor(vertices=5_000).face
+    places = actor.points.positions(actor.mesh.vertices)
+    moved = actor.mesh.vertices.copy()
+    for names in EYES.values():
+        upper, lower = (places[actor.points.names.index(name)] for name in names[:2])
+        middle, half = 0.5 * (upper + lower), 0.5 * np.linalg.norm(upper - lower)
+        away = moved - middle
+        near = np.exp(-0.5 * np.square(np.linalg.norm(away * (0.4, 1, 0.4), axis=1) / (2 * half)) ** 2)
+        moved[:, 1] += 0.5 * near * away[:, 1]
+    return Face(actor.mesh.with_vertices(1.7 * moved), actor.points)
+
+
+def blink(actor: demo.DemoFace, share: float = 1.0) -> np.ndarray:
+    return actor.frames(demo.contractions({"blink": share}))
+
+
+# ---- margins ------------------------------------------------------------------------------------
+
+
+def test_guides_stand_on_the_margins_from_corner_to_corner(actor: demo.DemoFace) -> None:
+    mesh, points = actor.face.mesh, actor.face.points
+    found = find_eye_margins(mesh, points)
+    assert set(found) == {"left", "right"}
+    for side, eye in found.items():
+        corners = points.subset([EYES[side][2], EYES[side][3]]).holders
+        middles = points.subset(EYES[side][:2]).holders
+        for margin, middle in zip((eye.upper, eye.lower), middles, strict=True):
+            assert margin.vertices[[0, -1]].tolist() == corners.tolist()
+            guides = margin.guides @ mesh.vertices
+            assert len(guides) == 2 * GUIDES + 1
+            np.testing.assert_allclose(guides[GUIDES], mesh.vertices[middle], atol=1e-9)
+            # Values at the guides come back at the vertices: their own places, up to the bends between guides.
+            back = margin.spread @ guides
+            width = np.linalg.norm(guides[0] - guides[-1])
+            assert np.linalg.norm(back - mesh.vertices[margin.vertices], axis=1).max() < 0.06 * width
+            np.testing.assert_allclose(np.asarray(margin.spread.sum(axis=1)).ravel(), 1.0)
+
+
+def test_a_face_without_lids_points_has_no_margins(actor: demo.DemoFace) -> None:
+    points = actor.face.points
+    one_eyed = points.subset([name for name in points.names if name != "3.1"])
+    assert set(find_eye_margins(actor.face.mesh, one_eyed)) == {"right"}
+    assert find_eye_margins(actor.face.mesh, points.subset(["2.1", "9.3", "8.3", "8.4"])) == {}
+
+
+# ---- lids ---------------------------------------------------------------------------------------
+
+
+def left_over(face: Face, positions: np.ndarray) -> float:
+    """The lids' opening as a share of the neutral one, the mean of both eyes."""
+    shares = []
+    for eye in find_eye_margins(face.mesh, face.points).values():
+        neutral, now = eye.openings(face.mesh.vertices), eye.openings(positions)
+        size = np.linalg.norm(neutral, axis=1)
+        shares.append(np.einsum("gi,gi->g", now, neutral / np.maximum(size, 1e-300)[:, None]).sum() / size.sum())
+    return float(np.mean(shares))
+
+
+def test_a_lid_that_shuts_on_the_source_shuts_on_wider_eyes(actor: demo.DemoFace, child: Face) -> None:
+    frames = blink(actor)
+    shut = left_over(actor.face, frames[0].astype(float))
+    problem = Problem(Face(actor.face.mesh, actor.face.points), child)
+    whole = motion_cloning.fit(problem, MotionCloningSettings())
+    moved = whole.plain(frames.astype(np.float32))
+    closed = left_over(child, child.mesh.vertices + moved[0])
+    whole._seams = None
+    without = left_over(child, child.mesh.vertices + whole.plain(frames.astype(np.float32))[0])
+    assert abs(shut) < 0.1
+    assert without > shut + 0.2, "the carried motion alone leaves a slit on wider eyes"
+    assert closed == pytest.approx(shut, abs=0.04)
+
+
+def test_lids_of_a_face_onto_itself_are_left_as_they_are(actor: demo.DemoFace) -> None:
+    mesh = actor.face.mesh
+    eyes = find_eye_margins(mesh, actor.face.points)
+    each = np.broadcast_to(np.eye(3), (len(mesh.vertices), 3, 3))
+    seams = LidSeams(eyes, eyes, (mesh, mesh), each, each)
+    acted = (blink(actor, 0.7) - mesh.vertices).astype(np.float32)
+    corrected = seams.correct(acted.copy(), acted)
+    assert np.abs(corrected - acted).max() < 1e-5 * mesh.size
+    assert not seams.correct(np.zeros_like(acted), np.zeros_like(acted)).any()
+
+
+def test_gaps_are_whole_in_the_neutral_and_gone_in_a_blink(actor: demo.DemoFace, child: Face) -> None:
+    gaps = SeamGaps(Problem(actor.face, child))
+    neutral = actor.face.mesh.vertices.astype(np.float32)
+    frames = np.stack([neutral, blink(actor)[0], actor.frames(demo.contractions({"jaw": 1.0}))[0]])
+    still = np.repeat(child.mesh.vertices[None].astype(np.float32), 3, axis=0)
+    found = gaps.measured(frames, still)
+    assert found["source_lid_gap_percent"][0] == pytest.approx(100, abs=0.1)
+    assert found["source_lid_gap_percent"][1] < 12
+    np.testing.assert_allclose(found["lid_gap_percent"], 100, atol=0.1)
+    assert found["source_lip_gap_percent"][:2] == pytest.approx([0, 0], abs=0.5)
+    assert found["source_lip_gap_percent"][2] > 20
+    np.testing.assert_allclose(found["lip_gap_percent"], 0, atol=0.01)
+
+
+# ---- folds --------------------------------------------------------------------------------------
+
+
+def grid(count: int = 24) -> TriMesh:
+    x, y = np.meshgrid(np.arange(count, dtype=float), np.arange(count, dtype=float), indexing="ij")
+    first = (np.arange(count - 1)[:, None] * count + np.arange(count - 1)).ravel()
+    faces = np.concatenate(
+        [np.stack([first, first + count, first + 1], 1), np.stack([first + count, first + count + 1, first + 1], 1)]
+    )
+    return TriMesh(np.stack([x.ravel(), y.ravel(), np.zeros(count * count)], axis=1), faces)
+
+
+def test_a_fold_that_the_source_lacks_is_smoothed_away_and_nothing_else_moves() -> None:
+    mesh = grid()
+    every = np.arange(len(mesh.vertices))
+    calm = mesh.vertices[None].astype(np.float32)
+    moved = np.zeros_like(calm)
+    moved[0, 300] = (1.6, 0.0, 0.0)
+    defects = Defects(mesh, mesh, every)
+    assert defects.turned(mesh.vertices + moved[0]).any()
+    mended = Unfolding(mesh, mesh, every).mend(moved.copy(), calm)
+    assert not defects.turned(mesh.vertices + mended[0]).any()
+    far = np.linalg.norm(mesh.vertices - mesh.vertices[300], axis=1) > 4
+    assert not mended[0, far].any()
+
+
+def test_a_fold_that_the_source_has_is_left() -> None:
+    mesh = grid()
+    every = np.arange(len(mesh.vertices))
+    moved = np.zeros((1, len(mesh.vertices), 3), np.float32)
+    moved[0, mesh.vertices[:, 0] > 12] = (0.0, 0.0, 0.0)
+    rolled = mesh.vertices[:, 0] > 12
+    moved[0, rolled, 0] = (2 * (12 - mesh.vertices[rolled, 0])).astype(np.float32)
+    mended = Unfolding(mesh, mesh, every).mend(moved.copy(), mesh.vertices.astype(np.float32) + moved)
+    np.testing.assert_allclose(mended, moved, atol=2.0)
+    turned = Defects(mesh, mesh, every).turned(mesh.vertices + mended[0])
+    assert turned.sum() > 0.3 * len(mesh.faces)
+
+
+def test_a_lip_that_goes_through_the_other_is_no_mere_fold() -> None:
+    mesh = grid()
+    every = np.arange(len(mesh.vertices))
+    moved = np.zeros((1, len(mesh.vertices), 3), np.float32)
+    middle = np.linalg.norm(mesh.vertices - mesh.vertices[300], axis=1) < 3
+    moved[0, middle] = (14.0, 0.0, 0.0)
+    mended = Unfolding(mesh, mesh, every).mend(moved.copy(), mesh.vertices[None].astype(np.float32))
+    np.testing.assert_array_equal(mended, moved)
+
+
+# ---- coarse sources -----------------------------------------------------------------------------
+
+
+def carry_of(source: Face, target: Face) -> np.ndarray:
+    return correspond(source.mesh, source.points, target.mesh, target.points).matrix(
+        source.mesh.faces, len(source.mesh.vertices)
+    )
+
+
+def test_a_source_as_fine_as_the_target_is_left_alone(actor: demo.DemoFace) -> None:
+    mesh = actor.face.mesh
+    matrix = carry_of(actor.face, actor.face)
+    smoothing, carry = smooth_coarse_source(matrix, mesh, mesh, 1.0)
+    assert smoothing is None
+    assert carry is matrix
+
+
+def test_a_coarse_source_loses_its_kinks_and_no_shift() -> None:
+    coarse, fine = demo.actor(vertices=1_200).face, demo.actor(vertices=8_000).face
+    matrix = carry_of(coarse, fine)
+    smoothing, carry = smooth_coarse_source(matrix, coarse.mesh, fine.mesh, 1.0)
+    assert smoothing is not None
+    ones = np.ones(len(coarse.mesh.vertices))
+    np.testing.assert_allclose(carry @ (smoothing @ ones), matrix @ ones, atol=1e-9)
+    noise = np.random.default_rng(0).normal(size=(len(ones), 3))
+    i, j = fine.mesh.edges.T
+    before, after = matrix @ noise, carry @ (smoothing @ noise)
+    assert np.square(after[i] - after[j]).sum() < 0.1 * np.square(before[i] - before[j]).sum()
+
+
+def test_points_alone_are_enough(actor: demo.DemoFace, child: Face) -> None:
+    """Free names serve where no unit of a region is asked for."""
+
+    def renamed(face: Face) -> Face:
+        kept = [name for name in face.points.names if not name.startswith(("3.5", "3.6", "6.", "9.8", "9.9", "9.1"))]
+        points = face.points.subset(kept)
+        return Face(face.mesh, FeaturePoints(tuple(f"p{k}" for k in range(len(kept))), points.vertices, points.weights))
+
+    fitted = motion_cloning.fit(Problem(renamed(actor.face), renamed(child)), MotionCloningSettings())
+    found = fitted.frames(blink(actor).astype(np.float32))
+    assert np.isfinite(found).all()
+    assert fitted.report["lids"] == []
