@@ -12,6 +12,9 @@ TORN = 3.0
 CALM = 1.5
 """... while no source edge around its counterpart is stretched beyond this."""
 
+Rows = IntArray | slice
+EVERY = slice(None)
+
 
 class Defects:
     """Finds the defects of frames of one pair of faces.
@@ -42,27 +45,28 @@ class Defects:
         at_counterpart: BoolArray = turned[self._counterpart]
         return at_counterpart
 
-    def torn(self, target: FloatArray, calm: BoolArray) -> BoolArray:
-        """(E,) torn edges of a frame (Vt, 3)."""
-        i, j = self._target.edges.T
-        torn: BoolArray = self.stretched(target) & calm[i] & calm[j]
+    def torn(self, target: FloatArray, calm: BoolArray, rows: Rows = EVERY) -> BoolArray:
+        """(E,) torn edges of a frame (Vt, 3); rows : the edges to look at."""
+        i, j = self._target.edges[rows].T
+        torn: BoolArray = self.stretched(target, rows) & calm[i] & calm[j]
         return torn
 
-    def stretched(self, target: FloatArray) -> BoolArray:
-        """(E,) edges of a frame (Vt, 3) that are torn if the source's are calm there."""
-        return edge_stretch(self._target, target) > TORN
+    def stretched(self, target: FloatArray, rows: Rows = EVERY) -> BoolArray:
+        """(E,) edges of a frame (Vt, 3) that are torn if the source's are calm there; rows : the edges to look at."""
+        return edge_stretch(self._target, target, rows) > TORN
 
-    def turned(self, target: FloatArray) -> BoolArray:
-        """(F,) faces of a frame (Vt, 3) that are turned over."""
-        return turned_faces(self._target.faces, target, self._face_vectors)
+    def turned(self, target: FloatArray, rows: Rows = EVERY) -> BoolArray:
+        """(F,) faces of a frame (Vt, 3) that are turned over; rows : the faces to look at."""
+        return turned_faces(self._target.faces[rows], target, self._face_vectors[rows])
 
 
-def edge_stretch(mesh: TriMesh, positions: FloatArray) -> FloatArray:
-    """(E,) edge lengths over their neutral lengths; 1 for an edge without length."""
-    i, j = mesh.edges.T
+def edge_stretch(mesh: TriMesh, positions: FloatArray, rows: Rows = EVERY) -> FloatArray:
+    """(E,) edge lengths over their neutral lengths; 1 for an edge without length; rows : the edges to look at."""
+    i, j = mesh.edges[rows].T
     gap = positions[i] - positions[j]
     length = np.sqrt(np.einsum("ij,ij->i", gap, gap))
-    return np.divide(length, mesh.edge_lengths, out=np.ones(len(length)), where=mesh.edge_lengths > 1e-9 * mesh.size)
+    neutral = mesh.edge_lengths[rows]
+    return np.divide(length, neutral, out=np.ones(len(length)), where=neutral > 1e-9 * mesh.size)
 
 
 def turned_faces(faces: IntArray, positions: FloatArray, neutral: FloatArray) -> BoolArray:

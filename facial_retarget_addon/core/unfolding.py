@@ -43,21 +43,24 @@ class Unfolding:
         graph = target.graph.copy()
         graph.data = 1 / np.maximum(graph.data, 1e-3 * target.edge_lengths.mean())
         self._mean = (sp.diags(1 / np.maximum(np.asarray(graph.sum(axis=1)).ravel(), 1e-300)) @ graph).tocsr()
+        self._rest = target.vertices.astype(np.float32)
+        self._faces_at, self._edges_at = (
+            _incidence(part, len(graph.indptr) - 1) for part in (target.faces, target.edges)
+        )
 
     def mend(self, displacements: FloatArray, source: FloatArray) -> FloatArray:
         """Displacements (F, Vt, 3), mended in place, of frames (F, Vs, 3) of the source."""
         for moved, frame in zip(displacements, source, strict=True):
-            turned = self._defects.turned(self._target.vertices + moved) & self._sided
-            stretched = self._defects.stretched(self._target.vertices + moved)
+            positions = self._rest + moved
+            turned, stretched = self._defects.turned(positions) & self._sided, self._defects.stretched(positions)
             if turned.any() or stretched.any():
-                self._mend(moved, frame)
+                self._mend(moved, frame, np.flatnonzero(turned), np.flatnonzero(stretched))
         return displacements
 
-    def _mend(self, moved: FloatArray, frame: FloatArray) -> None:
+    def _mend(self, moved: FloatArray, frame: FloatArray, turned: IntArray, stretched: IntArray) -> None:
         calm, rolled = self._defects.calm(frame), self._defects.turned_at_counterpart(frame)
-        upright = self._sided & ~rolled[self._target.faces].all(axis=1)
         before, now = moved.astype(np.float64), moved.astype(np.float64)
-        bad = self._bad(now, upright, calm)
+        bad = self._bad(now, calm, rolled, turned, stretched)
         for done in range(ROUNDS):
             if not bad.any():
                 break
@@ -68,16 +71,20 @@ class Unfolding:
             mean = self._mean[rows]
             for _ in range(SWEEPS):
                 now[rows] = 0.5 * (now[rows] + mean @ now)
-            bad = self._bad(now, upright, calm)
+            around = (np.unique(incidence[rows].indices) for incidence in (self._faces_at, self._edges_at))
+            bad = self._bad(now, calm, rolled, *around)
         self._keep_far(before, now)
         moved[:] = now
 
-    def _bad(self, displacement: FloatArray, upright: BoolArray, calm: BoolArray) -> BoolArray:
-        """(V,) vertices of turned faces and of torn edges."""
+    def _bad(
+        self, displacement: FloatArray, calm: BoolArray, rolled: BoolArray, faces: IntArray, edges: IntArray
+    ) -> BoolArray:
+        """(V,) vertices of those of the faces that are turned, and of those of the edges that are torn."""
         positions = self._target.vertices + displacement
+        upright = self._sided[faces] & ~rolled[self._target.faces[faces]].all(axis=1)
         bad = np.zeros(len(positions), bool)
-        bad[self._target.faces[self._defects.turned(positions) & upright]] = True
-        bad[self._target.edges[self._defects.torn(positions, calm)]] = True
+        bad[self._target.faces[faces[self._defects.turned(positions, faces) & upright]]] = True
+        bad[self._target.edges[edges[self._defects.torn(positions, calm, edges)]]] = True
         return bad
 
     def _keep_far(self, before: FloatArray, now: FloatArray) -> None:
@@ -91,3 +98,9 @@ class Unfolding:
         np.maximum.at(farthest, patch, change[touched])
         back = touched[(farthest > MOST_CHANGE)[patch]]
         now[back] = before[back]
+
+
+def _incidence(members: IntArray, count: int) -> sp.csr_matrix:
+    """(count, N) which of N faces or edges (N, k) each vertex belongs to."""
+    rows = np.repeat(np.arange(len(members)), members.shape[1])
+    return sp.csr_matrix((np.ones(members.size, bool), (members.ravel(), rows)), shape=(count, len(members)))
