@@ -14,6 +14,9 @@ ESTIMATORS = ("least_squares", "taubin")
 
 _FLAT = 0.05
 """Curvature times edge length that counts for little beside its own error."""
+AGREEMENT = 15.0
+"""Degrees between a principal direction and the one that the edges around it carry over, from which on it counts for
+nothing: the match is off there, or the estimate."""
 _ROUND, _CLEAR = 0.05, 0.2
 """Anisotropies below which principal directions say nothing, and above which they decide."""
 
@@ -68,18 +71,21 @@ def principal_frames(mesh: TriMesh, estimator: str = "least_squares") -> Princip
     return PrincipalFrames(axes, values[:, ::-1], (values[:, 1] - values[:, 0]) / size)
 
 
-def frame_rotations(source: TriMesh, target: TriMesh, estimator: str = "least_squares") -> FloatArray:
+def frame_rotations(
+    source: TriMesh, target: TriMesh, estimator: str = "least_squares", agreement: float | None = AGREEMENT
+) -> FloatArray:
     """Rotations (V, 3, 3) from each vertex's frame on the source to its frame on the target.
 
     Principal directions are lines without a sign, swap where the curvatures do, and mean nothing at round and flat
     places. So the best rotation of the ring of edges around a vertex, turned to take normal to normal, carries the
     source's first direction over; of the target's four directions the closest one is meant (of two where both faces
-    are clearly anisotropic), and it counts as much as both faces are anisotropic there. A mesh onto itself gives the
-    identity, a turned one that turn.
+    are clearly anisotropic), and it counts as much as both faces are anisotropic there and as it agrees with what was
+    carried over. A mesh onto itself gives the identity, a turned one that turn.
 
     Parameters
     ----------
     source, target : two meshes of the same faces.
+    agreement : in degrees, see `AGREEMENT`; None to follow the target's direction wherever it lies.
 
     References
     ----------
@@ -96,7 +102,11 @@ def frame_rotations(source: TriMesh, target: TriMesh, estimator: str = "least_sq
     chosen = np.where(swapped[:, None], theirs.axes[:, 2], theirs.axes[:, 1])
     chosen = chosen * np.where(np.where(swapped, second, first) < 0, -1.0, 1.0)[:, None]
     step = np.clip((trust - _ROUND) / (_CLEAR - _ROUND), 0, 1)
-    direction = _between(carried, chosen, normals, step * step * (3 - 2 * step))
+    share = step * step * (3 - 2 * step)
+    if agreement is not None:
+        least = np.cos(np.radians(agreement))
+        share *= np.clip((np.einsum("vi,vi->v", carried, chosen) - least) / (1 - least), 0, 1)
+    direction = _between(carried, chosen, normals, share)
     axes = np.stack([normals, direction, cross(normals, direction)], axis=1)
     rotations: FloatArray = np.einsum("vki,vkj->vij", axes, ours.axes)
     return rotations

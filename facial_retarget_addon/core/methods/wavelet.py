@@ -32,7 +32,7 @@ from ..wavelets.lifting import Wavelets, integral_wavelets, wavelets
 from ..wavelets.motion import RidingMotion, WaveletMotion
 from .settings import WaveletSettings
 
-_SMOOTHING = 10
+_SMOOTHING = 5
 """Rounds in which each base vertex's rotation takes the mean of those around it; the paper has none."""
 _REACH = 0.35
 """Eye separations over which base rotations spread to the vertices between and beyond them."""
@@ -137,7 +137,7 @@ def _frames(pair: Pair, bank: Wavelets, read: sp.csr_matrix, paper: bool) -> Fra
     )
     scale = float(np.sqrt(target.area / source.area))
     if paper:
-        return Frames(scale, frame_rotations(source, target, "taubin"))
+        return Frames(scale, frame_rotations(source, target, "taubin", agreement=None))
     rotations = frame_rotations(source, target)
     around = adjacency(source) + sp.eye(len(rotations))
     for _ in range(_SMOOTHING):
