@@ -39,7 +39,7 @@ def fit_face_files(files: FapFaceFiles, progress: Progress = no_progress) -> tup
     """
     mesh_file = read_mesh(files.neutral)
     points = read_points(files.points, mesh_file.mesh)
-    named = NO_NAMES if files.parts is None else read_parts(files.parts, mesh_file.mesh)
+    named = NO_NAMES if files.parts is None else read_parts(files.parts, mesh_file.mesh, files.neutral)
     if wrong := named_faults(mesh_file.mesh, points, named):
         raise RetargetError(f"{files.parts}: {'; '.join(wrong)}")
     try:

@@ -59,6 +59,28 @@ def read_obj_vertices(path: Path) -> FloatArray:
     return _numbers(path, _statements(path, *_lines(path), b"v"), 3)
 
 
+def read_obj_groups(path: Path) -> dict[str, IntArray]:
+    """The vertices (n,) of the faces below each name that an o, g or usemtl line gives; RetargetError as `read_obj`.
+
+    A name that comes again goes on; a g line may have several names.
+    """
+    lines, starts = _lines(path)
+    faces = _statements(path, lines, starts, b"f")
+    places = np.delete(faces.words, faces.first)
+    corners = _indices(path, faces, _part(places, 0), _statements(path, lines, starts, b"v"))
+    ends = np.cumsum(faces.counts)
+    groups: dict[str, list[IntArray]] = {}
+    for keyword in (b"o ", b"g ", b"usemtl "):
+        named = np.array([k for k in np.flatnonzero(starts == keyword[:2]) if lines[k].startswith(keyword)], np.int64)
+        first = np.searchsorted(faces.lines, named)
+        for line, start, end in zip(named, first, np.append(first[1:], len(faces.lines)), strict=False):
+            held = corners[ends[start] - faces.counts[start] : ends[end - 1]] if start < end else corners[:0]
+            text = lines[line].partition(b" ")[2].strip().decode(errors="replace")
+            for name in text.split() if keyword == b"g " else [text]:
+                groups.setdefault(name, []).append(held)
+    return {name: np.unique(np.concatenate(held)) for name, held in groups.items()}
+
+
 def write_obj(file: BinaryIO, mesh_file: MeshFile) -> None:
     """Write a mesh; positions read back exactly."""
     file.write(_format_rows("v %.17g %.17g %.17g\n", mesh_file.mesh.vertices))

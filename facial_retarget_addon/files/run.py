@@ -185,4 +185,4 @@ class Reading:
         """The parts of a face that are named, none where the job names no file; None if they cannot be read."""
         if files.parts is None:
             return NO_NAMES
-        return None if face is None else self.attempt(read_parts, files.parts, face.mesh)
+        return None if face is None else self.attempt(read_parts, files.parts, face.mesh, files.neutral)

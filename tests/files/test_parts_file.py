@@ -16,6 +16,7 @@ from facial_retarget_addon.core.parts.kinds import named_vertices
 from facial_retarget_addon.files.job import Job, read_job, write_job
 from facial_retarget_addon.files.mesh_file import MeshFile
 from facial_retarget_addon.files.meshes import write_mesh
+from facial_retarget_addon.files.obj import read_obj, read_obj_groups
 from facial_retarget_addon.files.parts import read_parts, write_parts
 from facial_retarget_addon.files.run import check_job, read_inputs
 
@@ -70,6 +71,58 @@ def test_another_document_is_refused(tmp_path: Path) -> None:
     path.write_text('{"format": "facial-retarget/feature-points", "version": 2, "parts": {}}')
     with pytest.raises(RetargetError, match=r"format = .*expected 'facial-retarget/parts'; version = 2, expected 1"):
         read_parts(path, PIECES)
+
+
+GROUPED = """
+v 0 0 0
+v 1 0 0
+v 0 1 0
+v 0 0 5
+v 1 0 5
+v 0 1 5
+v 0 0 9
+v 1 0 9
+v 0 1 9
+o the head
+usemtl skin
+f 1 2 3
+g lashes upper
+f 4 5 6
+usemtl enamel
+f 7 8 9
+g lashes
+f 7 9 8
+g empty
+"""
+
+
+def test_groups_of_an_obj_file_are_parts(tmp_path: Path) -> None:
+    neutral = tmp_path / "head.obj"
+    neutral.write_text(GROUPED)
+    groups = {name: vertices.tolist() for name, vertices in read_obj_groups(neutral).items()}
+    assert groups == {
+        "the head": list(range(9)),
+        "lashes": list(range(3, 9)),
+        "upper": list(range(3, 9)),
+        "empty": [],
+        "skin": list(range(6)),
+        "enamel": [6, 7, 8],
+    }
+    mesh = read_obj(neutral).mesh
+    parts = written(tmp_path, '{"lower teeth": {"groups": ["enamel"]}, "tongue": {"vertices": [3]}}')
+    found = read_parts(parts, mesh, neutral)
+    assert {name: vertices.tolist() for name, vertices in found.items()} == {"lower teeth": [6, 7, 8], "tongue": [3]}
+    for wanted, expected in (
+        ('["gold"]', "part 'tongue' has groups ['gold'], expected some of those with faces: the head, lashes, upper"),
+        ('["empty"]', "part 'tongue' has groups ['empty'], expected some"),
+        ("[3]", "part 'tongue' has groups [3], expected some"),
+        ("[]", "part 'tongue' has groups [], expected some"),
+    ):
+        with pytest.raises(RetargetError) as error:
+            read_parts(written(tmp_path, f'{{"tongue": {{"groups": {wanted}}}}}'), mesh, neutral)
+        assert expected in str(error.value)
+    with pytest.raises(RetargetError, match=r"groups are those of an .obj file, but the neutral is head\.ply"):
+        read_parts(written(tmp_path, '{"tongue": {"groups": ["enamel"]}}'), mesh, tmp_path / "head.ply")
 
 
 def with_parts(job: Job, parts: str) -> Job:
