@@ -7,11 +7,12 @@ from typing import Any, NamedTuple
 from ..arrays import BoolArray, FloatArray
 from ..problem import Face
 from .eyes import EyeTurns, pair_eyeballs
-from .follow import Following, fit_following
+from .follow import Following, following_of
 from .known_head import know_head
 from .lash_turns import LashTurns, fit_lash_turns
 from .mouth import Mouth, fit_mouth
 from .report import FOLLOWS, part_rows
+from .riding import ride
 
 
 class CarriedParts(NamedTuple):
@@ -47,7 +48,8 @@ def carried_parts(source: Face, target: Face, own: BoolArray) -> CarriedParts:
     """
     ours, theirs = know_head(source), know_head(target)
     free = [part for part in theirs.parts if not own[part.vertices].any()]
-    following = fit_following(theirs, free, jaw=False)
+    riding = ride(theirs, free)
+    following = following_of(riding.matrix(), theirs.axes)
     mouth, eyes = fit_mouth(ours, theirs, free), pair_eyeballs(ours, theirs, own)
     moves = eyes.turning()
     moves[following.riders] = True
@@ -56,4 +58,4 @@ def carried_parts(source: Face, target: Face, own: BoolArray) -> CarriedParts:
         moves[mouth.moves()] = True
         does |= mouth.does()
     rows = part_rows(theirs.parts, moves, own, does)
-    return CarriedParts(following, fit_lash_turns(ours, theirs, free), mouth, eyes, rows, moves)
+    return CarriedParts(following, fit_lash_turns(ours, theirs, riding), mouth, eyes, rows, moves)

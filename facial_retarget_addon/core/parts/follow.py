@@ -62,7 +62,7 @@ class Following:
         return (basis + follows @ basis).tocsr()
 
 
-def fit_following(head: KnownHead, parts: Sequence[Part], jaw: bool = True) -> Following:
+def fit_following(head: KnownHead, parts: Sequence[Part]) -> Following:
     """Let the parts follow the skin.
 
     What is around the eyes, and hair on the face, rides on the skin: see `ride`. The lower parts of the mouth go where
@@ -73,10 +73,9 @@ def fit_following(head: KnownHead, parts: Sequence[Part], jaw: bool = True) -> F
     Parameters
     ----------
     parts : those of the head that shall follow.
-    jaw : whether the parts of the mouth shall.
     """
     follows = ride(head, parts).matrix()
-    if jaw and head.shown and any(part.kind in WITH_JAW for part in parts):
+    if head.shown and any(part.kind in WITH_JAW for part in parts):
         follows = follows + _with_chin(head, parts)
     return following_of(follows, head.axes)
 

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
 
 from ..arrays import FloatArray, IntArray
-from .find import Part
 from .follow import Following, following_of
 from .known_head import KnownHead
 from .riding import Riding, Tips, ride
@@ -47,15 +45,15 @@ class LashTurns:
         return displacements
 
 
-def fit_lash_turns(source: KnownHead, target: KnownHead, parts: Sequence[Part]) -> LashTurns | None:
+def fit_lash_turns(source: KnownHead, target: KnownHead, riding: Riding) -> LashTurns | None:
     """Let the target's lashes turn as the source's do; None where one of the heads has none.
 
     Parameters
     ----------
-    parts : those of the target that may move.
+    riding : what rides on the target's skin.
     """
     ours = ride(source, source.parts)
-    theirs = {tips.side: tips for tips in ride(target, parts).tips if len(tips.vertices)}
+    theirs = {tips.side: tips for tips in riding.tips if len(tips.vertices)}
     eyes = [(tips, theirs[tips.side]) for tips in ours.tips if tips.side in theirs and len(tips.vertices)]
     if not eyes:
         return None
