@@ -45,7 +45,7 @@ _LEFT: dict[str, Pose] = {
     "eyeLookIn": {"look_aside_l": -1.0},
     "eyeLookOut": {"look_aside_l": 1.0},
     "eyeLookUp": {"look_up_l": 1.0},
-    "eyeSquint": {"tighten_l": 1.0, "squint_l": 0.35},
+    "eyeSquint": {"tighten_l": 0.85, "squint_l": 0.35},
     "eyeWide": {"widen_l": 1.0},
     "mouthSmile": {"zygomatic_l": 0.85, "squint_l": 0.2},
     "mouthFrown": {"depressor_anguli_l": 1.0},
@@ -64,7 +64,7 @@ _LEFT: dict[str, Pose] = {
 _VISEMES: dict[str, Pose] = {
     "viseme_PP": {"press": 1.0, "roll_upper": 0.25, "roll_lower": 0.25},
     "viseme_FF": {"roll_lower": 0.9, "upper_up": 0.9, "levator": 0.15, "shrug_lower": 0.3},
-    "viseme_TH": {"jaw": 0.16, "lower_down": 0.3, "upper_up": 0.25},
+    "viseme_TH": {"jaw": 0.24, "lower_down": 0.2, "upper_up": 0.25, "tongue_out": 0.45},
     "viseme_DD": {"jaw": 0.13, "lower_down": 0.4, "upper_up": 0.3, "risorius": 0.1},
     "viseme_kk": {"jaw": 0.20, "lower_down": 0.25, "upper_up": 0.25},
     "viseme_CH": {"jaw": 0.06, "funnel": 0.85, "pucker": 0.15},
