@@ -36,7 +36,7 @@ PEERS: Mapping[str, Callable[[Problem], Cloner]] = {
     "expression cloning": ExpressionCloning,
     "deformation transfer": AlignedTransfer,
 }
-OURS = ("hierarchical", "feature_points", "motion_cloning")
+OURS = ("hierarchical", "wavelet", "feature_points", "motion_cloning")
 BEST = "motion_cloning"
 """The method of ours that must err less than every peer, and tear, fold and leave open no more than the best of them."""
 ERROR = "error"

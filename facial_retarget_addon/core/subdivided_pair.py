@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
@@ -41,6 +42,10 @@ class SubdividedPair(Pair):
         corners = np.zeros((count, 3), np.int64)
         neutral = self.finest.positions.astype(np.float32)
         return Binding(places.T.tocsr().astype(np.float32), corners, offset, inside, neutral)
+
+    def report(self) -> dict[str, Any]:
+        """As `Pair.report`, and how often the faces had been subdivided."""
+        return {**super().report(), "subdivided": len(self.steps)}
 
 
 def subdivided_pair(problem: Problem, levels: int, scheme: Scheme) -> Pair | None:

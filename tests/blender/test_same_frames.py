@@ -9,7 +9,7 @@ import pytest
 SCENARIOS = Path(__file__).parent / "scenarios"
 
 
-@pytest.mark.parametrize("scenario", ["retargeting", "feature_point_method"])
+@pytest.mark.parametrize("scenario", ["retargeting", "feature_point_method", "wavelet_method"])
 def test_blender_and_command_line_give_the_same_frames(
     scenario: str, blender: Callable[..., str], command_line: Callable[..., str], tmp_path: Path
 ) -> None:

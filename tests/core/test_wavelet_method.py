@@ -138,6 +138,7 @@ def test_subdivided_faces_are_recognised_and_not_resampled() -> None:
     assert report["base"]["points"] == len(source.points)
     assert [level["vertices"] for level in report["levels"]][-1] == len(source.mesh.vertices)
     assert report["matched"] == pytest.approx(1)
+    assert report["subdivided"] == 3
     # The fine mesh is the artist's own, so its motion is the whole motion.
     fine, _ = fitted.detail(frames)
     found = fitted.frames(frames)

@@ -127,9 +127,9 @@ Settings = HierarchicalSettings | WaveletSettings | FeaturePointSettings | Motio
 
 SETTINGS: dict[str, type[Settings]] = {
     "hierarchical": HierarchicalSettings,
-    "wavelet": WaveletSettings,
     "feature_points": FeaturePointSettings,
     "motion_cloning": MotionCloningSettings,
+    "wavelet": WaveletSettings,
 }
 """Method name -> its settings class."""
 

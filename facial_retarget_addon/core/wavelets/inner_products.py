@@ -13,9 +13,6 @@ from ..levels.subdivision import Level, hierarchy
 from ..levels.vertex_neighbours import adjacency
 from ..mesh import TriMesh
 
-_EXTRA = 2
-"""Levels beyond the finest on which functions count as piecewise linear."""
-
 _RINGS = 6
 """Rings that must be regular around a vertex for its inner products to be those of the regular lattice."""
 
@@ -67,28 +64,38 @@ def inner_products(faces: IntArray, vertex_count: int, steps: Sequence[Level]) -
 
 
 def _finest(faces: IntArray, vertex_count: int) -> sp.csr_matrix:
-    beyond = hierarchy(faces, vertex_count, _EXTRA, butterfly)
-    coarser, finer = (_pulled_down(beyond[:count]) for count in (_EXTRA - 1, _EXTRA))
-    near = finer + (finer - coarser) / 3
     mesh = TriMesh(np.zeros((vertex_count, 3)), faces)
     neighbours = adjacency(mesh)
     inside = _deep(mesh, neighbours)
     exact = _lattice(neighbours, inside)
-    deep, rest = sp.diags(inside * 1.0), sp.diags(~inside * 1.0)
-    return (exact + rest @ exact.T @ deep + rest @ near @ rest).tocsr()
+    near = _by_finer_levels(faces, vertex_count, np.flatnonzero(~inside))
+    return (exact + sp.diags(~inside * 1.0) @ exact.T @ sp.diags(inside * 1.0) + near).tocsr()
 
 
-def _pulled_down(steps: Sequence[Level]) -> sp.csr_matrix:
-    """Piecewise-linear inner products after some steps, as those of the functions before them."""
-    faces, count = steps[-1].faces, steps[-1].vertex_count
-    twelfth = 0.5 / 4 ** len(steps) / 12
-    a, b, c = faces.T
-    rows, columns = np.concatenate([a, b, c, a, b, c]), np.concatenate([b, c, a, a, b, c])
-    half = sp.coo_matrix((np.full(len(rows), twelfth), (rows, columns)), shape=(count, count)).tocsr()
-    mass = half + half.T
-    for step in reversed(steps):
-        mass = step.matrix.T @ mass @ step.matrix
-    return mass.tocsr()
+def _by_finer_levels(faces: IntArray, vertex_count: int, some: IntArray) -> sp.csr_matrix:
+    """(V, V) inner products among some vertices, by functions that are piecewise linear two and one levels finer."""
+    one, two = hierarchy(faces, vertex_count, 2, butterfly)
+    first, rows = _columns(one, some)
+    second, finest = _columns(two, rows)
+    coarser, finer = _linear_products(one, 1, rows), second.T @ _linear_products(two, 2, finest) @ second
+    near = (first.T @ (finer + (finer - coarser) / 3) @ first).tocoo()
+    return sp.csr_matrix((near.data, (some[near.row], some[near.col])), shape=(vertex_count,) * 2)
+
+
+def _columns(step: Level, some: IntArray) -> tuple[sp.csr_matrix, IntArray]:
+    """Some columns of a step's matrix, without the rows that they do not reach, and which rows are left."""
+    matrix = step.matrix[:, some]
+    rows = np.flatnonzero(np.diff(matrix.indptr))
+    return matrix[rows], rows
+
+
+def _linear_products(step: Level, levels: int, rows: IntArray) -> sp.csr_matrix:
+    """Inner products of the piecewise-linear functions of some vertices, so many levels finer than the unit."""
+    twelfth = 0.5 / 4**levels / 12
+    a, b, c = step.faces.T
+    i, j = np.concatenate([a, b, c, a, b, c]), np.concatenate([b, c, a, a, b, c])
+    half = sp.coo_matrix((np.full(len(i), twelfth), (i, j)), shape=(step.vertex_count,) * 2).tocsr()
+    return (half + half.T)[rows][:, rows]
 
 
 def _deep(mesh: TriMesh, neighbours: sp.csr_matrix) -> BoolArray:

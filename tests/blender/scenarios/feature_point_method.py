@@ -9,7 +9,7 @@ from pathlib import Path
 
 import bpy
 import numpy as np
-from stage import actor_face, empty_scene, part, shown
+from stage import actor_face, empty_scene, part, shown_frames
 
 folder = Path(sys.argv[1])
 empty_scene()
@@ -37,11 +37,7 @@ assert task.bl_rna.properties["method"].enum_items["feature_points"].name == "Fe
 
 def baked(thing: bpy.types.Object) -> np.ndarray:
     """(COUNT, V, 3) what the object shows at the frames."""
-    frames = []
-    for frame in range(task.frame_start, task.frame_end + 1):
-        context.scene.frame_set(frame)
-        frames.append(shown(thing))
-    return np.array(frames)
+    return shown_frames(thing, range(task.frame_start, task.frame_end + 1))
 
 
 task.method = "feature_points"

@@ -123,6 +123,15 @@ def shown(thing: bpy.types.Object) -> np.ndarray:
     return flat.reshape(-1, 3)
 
 
+def shown_frames(thing: bpy.types.Object, frames: range) -> np.ndarray:
+    """(F, V, 3) positions of an object as it looks at some of the scene's frames."""
+    found = []
+    for frame in frames:
+        bpy.context.scene.frame_set(frame)
+        found.append(shown(thing))
+    return np.array(found)
+
+
 @contextmanager
 def refused(*words: str) -> Iterator[None]:
     """The block must raise an error whose text holds all the words, and leave the scene as it was."""

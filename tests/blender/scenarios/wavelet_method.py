@@ -1,4 +1,7 @@
-"""The wavelet method from the panel: settings, bake, job; and the levels of a frame as sliders beside the target."""
+"""The wavelet method from the panel: settings, bake, job; and the levels of a frame as sliders beside the target.
+
+Leaves in the folder given: job.toml with its files, and blender.npz with the frames that Blender baked.
+"""
 
 import json
 import sys
@@ -6,7 +9,7 @@ from pathlib import Path
 
 import bpy
 import numpy as np
-from stage import actor_face, empty_scene, key_shape, part, refused, shown
+from stage import actor_face, empty_scene, key_shape, part, refused, shown, shown_frames
 
 folder = Path(sys.argv[1])
 empty_scene()
@@ -36,6 +39,7 @@ assert report["settings"]["mode"] == "scaled"
 assert [row["level"] for row in report["levels"]] == [1, 2]
 assert "level upon level" in (folder / "report.html").read_text()
 neutral = meshes.read_positions(task.target.data)
+np.savez(folder / "blender.npz", frames=shown_frames(task.target, range(FIRST, FIRST + COUNT)))
 bpy.ops.facial_retarget.save_job(filepath=str(folder / "job.toml"))
 job = part("files.job").read_job(folder / "job.toml")
 assert job.settings == settings.WaveletSettings(levels=2, mode="scaled")
