@@ -38,7 +38,7 @@ PEERS: Mapping[str, Callable[[Problem], Cloner]] = {
 }
 OURS = ("hierarchical", "wavelet", "feature_points", "motion_cloning")
 BEST = "motion_cloning"
-"""The method of ours that must err less than every peer, and tear, fold and leave open no more than the best of them."""
+"""The method of ours that must err less than any peer, and tear, fold and leave open no more than the best of them."""
 ERROR = "error"
 LIMITS = {"error on the face, median": 0.06, "error on the face, 90 %": 0.10}
 """What it must reach besides."""
