@@ -29,7 +29,7 @@ from facial_retarget_addon.core.parts.kinds import (
     TONGUE,
     UPPER,
 )
-from facial_retarget_addon.core.parts.known_head import know_head
+from facial_retarget_addon.core.parts.known_head import know_head, scale_between
 from facial_retarget_addon.core.parts.lacking import lacking_parts
 from facial_retarget_addon.core.points import FeaturePoints
 from facial_retarget_addon.core.problem import Face, Problem
@@ -494,6 +494,26 @@ def test_a_tongue_acts_as_the_source_s_does(makehuman: Head) -> None:
     # The artist's tongue did not go with the teeth in all.
     assert error_on(tongue, moved[1], wanted[1]) < 1e-4
     assert carried.rows[0]["does"].startswith("acts as the source's does")
+
+
+def test_a_head_that_is_carried_away_takes_its_parts_along(ict: Head, makehuman: Head) -> None:
+    turn = np.array([[0.96, 0.0, 0.28], [0.0, 1.0, 0.0], [-0.28, 0.0, 0.96]])
+    shift = np.array([20.0, -5.0, 8.0])
+    frame = (ict.mesh.vertices @ turn.T + shift).astype(np.float32)[None]
+    rest = makehuman.mesh.vertices
+    size = scale_between(ict.known, makehuman.known)
+    across = makehuman.known.axes.T @ ict.known.axes
+    # What the skin does: each place moves as its counterpart, scaled and turned as the heads are.
+    middle = [head.points.positions(head.mesh.vertices).mean(axis=0) for head in (ict, makehuman)]
+    here = across @ turn @ across.T
+    wanted = (rest - middle[1]) @ (here - np.eye(3)).T
+    wanted = wanted + size * (across @ ((turn - np.eye(3)) @ middle[0] + shift))
+    skin = (makehuman.names == "skin")[:, None]
+    carried = carried_parts(Face(ict.mesh, ict.points), Face(makehuman.mesh, makehuman.points), no_one(makehuman))
+    moved = carried.add_to(np.float32(wanted * skin)[None], frame)[0]
+    off = np.linalg.norm(moved - wanted, axis=1) / makehuman.known.unit
+    assert np.linalg.norm(wanted, axis=1).min() > 2 * makehuman.known.unit
+    assert off[makehuman.names != "skin"].max() < 0.15
 
 
 def test_the_parts_follow_a_retargeted_skin(makehuman: Head) -> None:

@@ -11,7 +11,7 @@ from ..arrays import BoolArray, FloatArray
 from ..mpeg4.head import gives_axes
 from ..rigid import closest_rotations
 from .kinds import EYEBALL
-from .known_head import KnownHead
+from .known_head import KnownHead, scale_between
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +79,7 @@ def pair_eyeballs(source: KnownHead, target: KnownHead, own: BoolArray) -> EyeTu
         and not own[target.eyeballs[side].vertices].any()
     )
     across = target.axes.T @ source.axes
-    return EyeTurns(pairs, source_rest, target.mesh.vertices, across, target.unit / source.unit)
+    return EyeTurns(pairs, source_rest, target.mesh.vertices, across, scale_between(source, target))
 
 
 def _is_part(head: KnownHead, eye: Eyeball) -> bool:

@@ -12,12 +12,12 @@ from ..acting.eyeballs import Eyeball, find_eyeballs
 from ..arrays import FloatArray, IntArray
 from ..base.regions import eye_separation
 from ..mesh import TriMesh
-from ..mpeg4.fapu import Fapu, measure_fapu
 from ..mpeg4.fdps import FDPS
 from ..mpeg4.head import gives_axes, head_axes
 from ..mpeg4.regions import OWN_PARTS
-from ..points import FeaturePoints
+from ..points import FeaturePoints, common_names
 from ..problem import Face
+from ..rigid import fit_similarity
 from .find import NEEDED, Part, find_parts
 
 
@@ -63,11 +63,6 @@ class KnownHead:
         """Distance of the eyes."""
         return eye_separation(self.mesh, self.points)
 
-    @cached_property
-    def fapu(self) -> Fapu:
-        """The face's units."""
-        return measure_fapu(self.points.names, self.points.positions(self.mesh.vertices), self.axes)
-
     def vertices(self, kinds: Collection[str]) -> IntArray:
         """(n,) vertices of the parts of these kinds, in order."""
         found = [part.vertices for part in self.parts if part.kind in kinds]
@@ -83,3 +78,10 @@ def know_head(face: Face) -> KnownHead:
     eyeballs = find_eyeballs(face.mesh, known, axes, face.named_parts)
     parts = find_parts(face.mesh, known, axes, eyeballs, face.named_parts)
     return KnownHead(face.mesh, known, axes, eyeballs, parts)
+
+
+def scale_between(source: KnownHead, target: KnownHead) -> float:
+    """Target units per source unit, by the points that both skins have: as the methods scale the skin's motion."""
+    names = [name for name in common_names(source.points, target.points) if name not in OWN_PARTS]
+    ours, theirs = (head.points.subset(names).positions(head.places) for head in (source, target))
+    return fit_similarity(ours, theirs).scale

@@ -11,13 +11,12 @@ import scipy.sparse as sp
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..closest_point import SurfaceFinder
 from ..mesh import TriMesh
-from ..mpeg4.regions import region_units
 from ..points import place_matrix
 from .find import Part
 from .follow import WITH_JAW, jaw_share
 from .jaw import BoneReader, ChinReader, JawReader, RigidMotion, hinge_of, shows_turns
 from .kinds import BOTH, LOWER, TONGUE, UPPER
-from .known_head import KnownHead
+from .known_head import KnownHead, scale_between
 
 IN_MOUTH = (UPPER, *WITH_JAW)
 """Kinds of parts that jaw and skull carry."""
@@ -34,23 +33,22 @@ class Tongues:
     ----------
     vertices : (m,) of the source's. away : (m, 3) from its hinge.
     rows : (k,) of the target's, among what lies in its mouth.
-    matrix : (k, m) places on the source's. stretch : (3,) target lengths per source length.
+    matrix : (k, m) places on the source's.
     """
 
     vertices: IntArray
     away: FloatArray
     rows: IntArray
     matrix: sp.csr_matrix
-    stretch: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
 class Mouth:
     """What moves in the target's mouth.
 
-    The jaw moves as the source's lower teeth do; turns are copied, shifts are measured in the units of each face. Where
-    the source has no lower teeth, or where they stay behind its opening chin, it moves as the target's own chin shows.
-    What belongs to the skull moves as the source's upper teeth.
+    The jaw moves as the source's lower teeth do; turns are copied, shifts are scaled as the heads are. Where the source
+    has no lower teeth, or where they stay behind its opening chin, it moves as the target's own chin shows. The skull
+    moves as the source's upper teeth do.
 
     Attributes
     ----------
@@ -59,7 +57,7 @@ class Mouth:
     riders : (n,) vertices of the target. away : (n, 3) from the target's hinge. share : (n, 1) of the jaw's motion.
     chins : read the jaw off the source's and the target's skin.
     jaw, skull : read the source's teeth; None where there are none.
-    scale : (3,) target lengths per source length along the heads' axes. unit : distance of the source's eyes.
+    scale : target lengths per source length. unit : distance of the source's eyes.
     """
 
     axes: tuple[FloatArray, FloatArray]
@@ -71,7 +69,7 @@ class Mouth:
     jaw: BoneReader | None
     skull: BoneReader | None
     tongues: Tongues | None
-    scale: FloatArray
+    scale: float
     unit: float
 
     def add_to(self, displacements: FloatArray, frames: FloatArray) -> FloatArray:
@@ -90,7 +88,7 @@ class Mouth:
         if self.tongues is not None:
             tongue = self.tongues
             acts = seen.undone(tongue.away, self._moved(frames, tongue.vertices))
-            there = np.stack([tongue.matrix @ one for one in acts]) * tongue.stretch
+            there = np.stack([tongue.matrix @ one for one in acts]) * self.scale
             moved[:, tongue.rows] = there + jaw.displacements(self.away[tongue.rows] + there)
         displacements[:, self.riders] += moved @ self.axes[1]
         return displacements
@@ -140,7 +138,6 @@ def fit_mouth(source: KnownHead, target: KnownHead, parts: Sequence[Part]) -> Mo
         lower = np.flatnonzero(jaw_share(source, source.parts) == 1)
         lower = np.setdiff1d(lower, source.vertices((TONGUE,)))
     jaw, skull = (_bone(source, vertices, hinge) for vertices in (lower, source.vertices((UPPER,))))
-    lengths = [np.array([head.fapu.length(unit) for unit in region_units("9.9")]) for head in (source, target)]
     away = target.places[riders] - there
     tongue = np.concatenate([np.empty(0, np.int64), *(part.vertices for part in inside if part.kind == TONGUE)])
     return Mouth(
@@ -153,7 +150,7 @@ def fit_mouth(source: KnownHead, target: KnownHead, parts: Sequence[Part]) -> Mo
         jaw,
         skull,
         _tongues(source, target, np.sort(tongue), riders, hinge),
-        lengths[1] / lengths[0],
+        scale_between(source, target),
         source.unit,
     )
 
@@ -171,7 +168,6 @@ def _tongues(
     if not len(tongue) or not held.any():
         return None
     boxes = [head.places[vertices] for head, vertices in ((source, ours), (target, tongue))]
-    lengths = [np.array([head.fapu.length(unit) for unit in region_units("6.1")]) for head in (source, target)]
     low = [box.min(axis=0) for box in boxes]
     size = [
         np.maximum(np.ptp(box, axis=0), 1e-6 * head.unit) for box, head in zip(boxes, (source, target), strict=True)
@@ -180,4 +176,4 @@ def _tongues(
     found = SurfaceFinder(laid, np.flatnonzero(held)).closest((boxes[1] - low[1]) / size[1])
     row = np.searchsorted(ours, source.mesh.faces[found.face])
     matrix = place_matrix(row, found.weights, len(ours))
-    return Tongues(ours, source.places[ours] - hinge, np.searchsorted(riders, tongue), matrix, lengths[1] / lengths[0])
+    return Tongues(ours, source.places[ours] - hinge, np.searchsorted(riders, tongue), matrix)
