@@ -112,8 +112,10 @@ def turn(displacements: FloatArray, turns: FloatArray) -> FloatArray:
     """Displacements (F, V, 3) turned by one rotation (3, 3) or by one for each vertex (V, 3, 3)."""
     if turns.ndim == 2:
         turned: FloatArray = displacements @ turns.T
-    else:
-        turned = np.einsum("vij,fvj->fvi", turns, displacements)
+        return turned
+    # All frames of a vertex at once: many times faster than vertex by vertex in every frame.
+    by_vertex = np.ascontiguousarray(displacements.transpose(1, 0, 2)) @ turns.transpose(0, 2, 1)
+    turned = np.ascontiguousarray(by_vertex.transpose(1, 0, 2))
     return turned
 
 

@@ -45,10 +45,9 @@ class Defects:
         at_counterpart: BoolArray = turned[self._counterpart]
         return at_counterpart
 
-    def torn(self, target: FloatArray, calm: BoolArray, rows: Rows = EVERY) -> BoolArray:
-        """(E,) torn edges of a frame (Vt, 3); rows : the edges to look at."""
-        i, j = self._target.edges[rows].T
-        torn: BoolArray = self.stretched(target, rows) & calm[i] & calm[j]
+    def torn(self, target: FloatArray, calm: BoolArray) -> BoolArray:
+        """(E,) torn edges of a frame (Vt, 3)."""
+        torn: BoolArray = self.stretched(target) & calm[self._target.edges].all(axis=1)
         return torn
 
     def stretched(self, target: FloatArray, rows: Rows = EVERY) -> BoolArray:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
 from .arrays import BoolArray, FloatArray, IntArray
-from .defects import Defects
+from .defects import TORN, Defects
 from .mesh import TriMesh
 
 ROUNDS = 12
@@ -21,6 +23,25 @@ MOST_CHANGE = 2.0
 """A patch that would have to move by more edges than this is left as it was: it is no mere fold."""
 FLAT = 1e-6
 """Faces of less area than this, as a share of the mean one's, have no side to be turned over from."""
+_BLOCK = 16
+"""Frames that are looked at together."""
+
+
+class _SourceFrame:
+    """What the source does in a frame (Vs, 3), worked out where it is asked for."""
+
+    def __init__(self, defects: Defects, frame: FloatArray) -> None:
+        self._defects, self._frame = defects, frame
+
+    @cached_property
+    def calm(self) -> BoolArray:
+        """(Vt,) see `Defects.calm`."""
+        return self._defects.calm(self._frame)
+
+    @cached_property
+    def rolled(self) -> BoolArray:
+        """(Vt,) see `Defects.turned_at_counterpart`."""
+        return self._defects.turned_at_counterpart(self._frame)
 
 
 class Unfolding:
@@ -44,23 +65,38 @@ class Unfolding:
         graph.data = 1 / np.maximum(graph.data, 1e-3 * target.edge_lengths.mean())
         self._mean = (sp.diags(1 / np.maximum(np.asarray(graph.sum(axis=1)).ravel(), 1e-300)) @ graph).tocsr()
         self._rest = target.vertices.astype(np.float32)
-        self._faces_at, self._edges_at = (
-            _incidence(part, len(graph.indptr) - 1) for part in (target.faces, target.edges)
-        )
+        self._faces_at, self._edges_at = (_incidence(part, len(self._rest)) for part in (target.faces, target.edges))
+        self._faces_of = _incidence(target.face_edges, len(target.edges))
+        self._harmless = self._safe_parting().astype(np.float32) ** 2
 
     def mend(self, displacements: FloatArray, source: FloatArray) -> FloatArray:
         """Displacements (F, Vt, 3), mended in place, of frames (F, Vs, 3) of the source."""
-        for moved, frame in zip(displacements, source, strict=True):
-            positions = self._rest + moved
-            turned, stretched = self._defects.turned(positions) & self._sided, self._defects.stretched(positions)
-            if turned.any() or stretched.any():
-                self._mend(moved, frame, np.flatnonzero(turned), np.flatnonzero(stretched))
+        for first in range(0, len(displacements), _BLOCK):
+            block = displacements[first : first + _BLOCK]
+            for moved, frame, edges in zip(block, source[first : first + _BLOCK], self._suspects(block), strict=True):
+                if len(edges):
+                    self._mend(moved, frame, edges)
         return displacements
 
-    def _mend(self, moved: FloatArray, frame: FloatArray, turned: IntArray, stretched: IntArray) -> None:
-        calm, rolled = self._defects.calm(frame), self._defects.turned_at_counterpart(frame)
+    def _suspects(self, displacements: FloatArray) -> list[IntArray]:
+        """Edges (n,) of each of the frames (F, Vt, 3) whose ends part far enough for a tear or a turned face."""
+        count = len(displacements)
+        by_vertex = np.ascontiguousarray(displacements.transpose(1, 0, 2)).reshape(-1, 3 * count)
+        i, j = self._target.edges.T
+        parted = (np.take(by_vertex, i, axis=0) - np.take(by_vertex, j, axis=0)).reshape(-1, count, 3)
+        far = np.einsum("efc,efc->fe", parted, parted) > self._harmless
+        return [np.flatnonzero(row) for row in far]
+
+    def _mend(self, moved: FloatArray, frame: FloatArray, edges: IntArray) -> None:
+        faces = np.unique(self._faces_of[edges].indices)
+        positions = self._rest + moved
+        edges = edges[self._defects.stretched(positions, edges)]
+        faces = faces[self._defects.turned(positions, faces) & self._sided[faces]]
+        if not len(edges) and not len(faces):
+            return
+        acted = _SourceFrame(self._defects, frame)
         before, now = moved.astype(np.float64), moved.astype(np.float64)
-        bad = self._bad(now, calm, rolled, turned, stretched)
+        bad = self._bad(now, acted, faces, edges)
         for done in range(ROUNDS):
             if not bad.any():
                 break
@@ -72,20 +108,37 @@ class Unfolding:
             for _ in range(SWEEPS):
                 now[rows] = 0.5 * (now[rows] + mean @ now)
             around = (np.unique(incidence[rows].indices) for incidence in (self._faces_at, self._edges_at))
-            bad = self._bad(now, calm, rolled, *around)
+            bad = self._bad(now, acted, *around)
         self._keep_far(before, now)
         moved[:] = now
 
-    def _bad(
-        self, displacement: FloatArray, calm: BoolArray, rolled: BoolArray, faces: IntArray, edges: IntArray
-    ) -> BoolArray:
+    def _bad(self, displacement: FloatArray, acted: _SourceFrame, faces: IntArray, edges: IntArray) -> BoolArray:
         """(V,) vertices of those of the faces that are turned, and of those of the edges that are torn."""
         positions = self._target.vertices + displacement
-        upright = self._sided[faces] & ~rolled[self._target.faces[faces]].all(axis=1)
+        faces = faces[self._defects.turned(positions, faces) & self._sided[faces]]
+        edges = edges[self._defects.stretched(positions, edges)]
+        if len(faces):
+            faces = faces[~acted.rolled[self._target.faces[faces]].all(axis=1)]
+        if len(edges):
+            edges = edges[acted.calm[self._target.edges[edges]].all(axis=1)]
         bad = np.zeros(len(positions), bool)
-        bad[self._target.faces[faces[self._defects.turned(positions, faces) & upright]]] = True
-        bad[self._target.edges[edges[self._defects.torn(positions, calm, edges)]]] = True
+        bad[self._target.faces[faces]] = True
+        bad[self._target.edges[edges]] = True
         return bad
+
+    def _safe_parting(self) -> FloatArray:
+        """(E,) by how much the ends of an edge may part without tearing it or turning a face beside it.
+
+        Edges (a, b) that change by less than d each leave the normal a x b on its side while 2 d L + d² < |a x b|, with
+        L the longest edge of the face.
+        """
+        mesh = self._target
+        longest = mesh.edge_lengths[mesh.face_edges].max(axis=1)
+        safe = np.sqrt(longest**2 + 2 * mesh.face_areas) - longest
+        parting = (TORN - 1) * mesh.edge_lengths
+        sided = np.flatnonzero(self._sided)
+        np.minimum.at(parting, mesh.face_edges[sided].ravel(), np.repeat(safe[sided], 3))
+        return parting
 
     def _keep_far(self, before: FloatArray, now: FloatArray) -> None:
         """Take back, in place, what was done to patches that it moved too far."""

@@ -137,8 +137,13 @@ class MotionCloningRetargeter:
     @cached_property
     def counterpart(self) -> IntArray:
         """(Vt,) source vertex that gives each target vertex the most of its motion, -1 where none does."""
-        most = np.asarray(self._matrix.argmax(axis=1)).ravel().astype(np.int64)
-        return np.where(self._moves, most, -1)
+        rows = np.flatnonzero(self._moves)
+        starts = self._matrix.indptr[rows]
+        most = np.repeat(np.maximum.reduceat(self._matrix.data, starts), np.diff(self._matrix.indptr)[rows])
+        there = np.where(self._matrix.data == most, np.arange(len(most)), len(most))
+        found = np.full(len(self._target), -1, np.int64)
+        found[rows] = self._matrix.indices[np.minimum.reduceat(there, starts)]
+        return found
 
     @property
     def _moves(self) -> BoolArray:

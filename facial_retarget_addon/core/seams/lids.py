@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
+from scipy.spatial import cKDTree
 
 from ..acting.eyeballs import EYES, find_eyeballs
 from ..arrays import FloatArray, unit_vectors
@@ -20,10 +21,14 @@ from .margins import GuidedMargin, guided_margin, has_points, lid_steps
 
 GUIDES = 3
 """From a corner of the eye to the middle of a lid."""
+AROUND = 1.5
+"""How far from its middle an eye's margins are looked for, in widths of the eye."""
 REACH = 0.5
 """How far a correction reaches from the margin, in widths of the eye."""
 LEAST, MOST = 1 / 3, 3.0
 """Bounds of the ratio between the openings of two eyes, in the scale of the heads."""
+FADED = 4.0
+"""Times `REACH` beyond which nothing is left of a correction."""
 THIN = 0.1
 """Openings below this share of the eye's greatest tell no ratio."""
 _SLIGHT = 1e-3
@@ -61,10 +66,13 @@ def find_eye_margins(mesh: TriMesh, points: FeaturePoints) -> dict[str, EyeMargi
     if not wanted:
         return {}
     balls = find_eyeballs(mesh, known, head_axes(known.names, known.positions(mesh.vertices)))
-    steps = shortcut_graph(mesh)
     found: dict[str, EyeMargins] = {}
     for side, (upper, lower, outer, inner, _) in wanted.items():
-        around = lid_steps(mesh, steps, balls[side])
+        ends = known.subset([outer, inner]).positions(mesh.vertices)
+        near = np.linalg.norm(mesh.vertices - ends.mean(axis=0), axis=1) < AROUND * np.linalg.norm(ends[0] - ends[1])
+        around = lid_steps(
+            mesh, shortcut_graph(TriMesh(mesh.vertices, mesh.faces[near[mesh.faces].all(axis=1)])), balls[side]
+        )
         margins = [
             guided_margin(mesh, around, known.subset([outer, middle, inner]), GUIDES) for middle in (upper, lower)
         ]
@@ -164,9 +172,10 @@ def _spread(mesh: TriMesh, eyes: list[EyeMargins], count: int) -> sp.csr_matrix:
     # Corners belong to both margins.
     owners = np.asarray(at_margins.sum(axis=1)).ravel()
     at_margins = sp.diags(1 / np.maximum(owners, 1e-300)) @ at_margins
-    width = np.mean([np.linalg.norm(np.diff((eye.upper.guides @ mesh.vertices)[[0, -1]], axis=0)) for eye in eyes])
+    ends = [(eye.upper.guides @ mesh.vertices)[[0, -1]] for eye in eyes]
+    width = float(np.mean([np.linalg.norm(pair[0] - pair[1]) for pair in ends]))
+    away = cKDTree(mesh.vertices[owners > 0]).query(mesh.vertices, distance_upper_bound=FADED * REACH * width)[0]
     decay = mesh.vertex_edge_length / (REACH * width) ** 2
-    spread = (HarmonicFill(mesh, owners > 0, decay).matrix() @ at_margins).tocsr()
-    spread.data[np.abs(spread.data) < _SLIGHT] = 0.0
-    spread.eliminate_zeros()
-    return spread
+    known = (owners > 0) | ~np.isfinite(away)
+    spread = HarmonicFill(mesh, known, decay).values(at_margins.toarray())
+    return sp.csr_matrix(np.where(np.abs(spread) < _SLIGHT, 0.0, spread))
