@@ -17,8 +17,7 @@ import scipy.sparse as sp
 
 from ..arrays import BoolArray, FloatArray, IntArray, Progress, no_progress, progress_part, unit_vectors
 from ..base.regions import eye_separation
-from ..binding import apply_matrix
-from ..carry import local_turns, steady_turns, turn
+from ..carry import local_turns, steady_turns
 from ..cloning.cylinder import Cylinder
 from ..cloning.normalisation import vertex_lengths
 from ..cloning.plane_map import plane_map
@@ -100,10 +99,14 @@ class MotionCloningRetargeter:
     def plain(self, source: FloatArray) -> FloatArray:
         """Displacements (F, Vt, 3) float32 of frames (F, Vs, 3) float32, without examples, of the skin alone."""
         acted = source - self._source
+        # All frames of a vertex lie side by side until the motion is done.
+        every = np.ascontiguousarray(acted.transpose(1, 0, 2))
         if self._smoothing is not None:
-            acted = apply_matrix(self._smoothing, acted)
-        moved = turn(apply_matrix(self._matrix, (acted @ self._read) * self._per_length), self._turns)
-        return moved if self._seams is None else self._seams.correct(moved, source - self._source)
+            every = _each_column(self._smoothing, every)
+        measured = (every @ self._read) * self._per_length[:, None]
+        moved = _each_column(self._matrix, measured) @ self._turns.transpose(0, 2, 1)
+        moved = np.ascontiguousarray(moved.transpose(1, 0, 2))
+        return moved if self._seams is None else self._seams.correct(moved, acted)
 
     def fair(self, seams: LidSeams, scale: float) -> None:
         """From now on smooth what a coarse source does, close lids as far as the source's, and mend what folds.
@@ -213,6 +216,12 @@ def fit(problem: Problem, settings: MotionCloningSettings, progress: Progress = 
     retargeter.learn(SteeringBase(source, target, *points, *separations), settings.example_strength)
     progress(1.0, "fitted")
     return retargeter
+
+
+def _each_column(matrix: sp.csr_matrix, values: FloatArray) -> FloatArray:
+    """Matrix (M, N) times values (N, F, 3): (M, F, 3)."""
+    product: FloatArray = (matrix @ values.reshape(len(values), -1)).reshape(-1, *values.shape[1:])
+    return product
 
 
 def _measured_heads(problem: Problem, names: Sequence[str]) -> list[tuple[FloatArray, FloatArray, Fapu]]:

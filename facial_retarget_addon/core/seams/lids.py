@@ -81,6 +81,18 @@ def find_eye_margins(mesh: TriMesh, points: FeaturePoints) -> dict[str, EyeMargi
     return found
 
 
+class _Rows:
+    """A matrix with few rows, which looks at the few vertices alone that it reads."""
+
+    def __init__(self, matrix: sp.csr_matrix) -> None:
+        self._columns = np.unique(matrix.indices)
+        self._matrix = matrix[:, self._columns].astype(np.float32)
+
+    def __call__(self, values: FloatArray) -> FloatArray:
+        """(F, rows, 3) for values (F, V, 3)."""
+        return apply_matrix(self._matrix, values[:, self._columns])
+
+
 class LidSeams:
     """Corrects a carried motion so that the target's lids do what the source's do.
 
@@ -116,16 +128,18 @@ class LidSeams:
                 read.append(own.guides)
                 carried.append(other.guides)
                 maps.append(mapped)
-        self._read, self._carried = (sp.vstack(rows).tocsr().astype(np.float32) for rows in (read, carried))
+        self._read, self._carried = (_Rows(sp.vstack(rows).tocsr()) for rows in (read, carried))
         self._maps = np.concatenate(maps).astype(np.float32)
-        self._spread = _spread(faces[1], [target[side] for side in self.sides], count).astype(np.float32)
+        spread = _spread(faces[1], [target[side] for side in self.sides], count)
+        self._reached = np.flatnonzero(spread.getnnz(axis=1))
+        self._spread = spread[self._reached].astype(np.float32)
 
     def correct(self, displacements: FloatArray, source: FloatArray) -> FloatArray:
         """Target displacements (F, Vt, 3) float32, corrected in place, for the source's (F, Vs, 3)."""
         if self.sides:
-            wanted = np.einsum("gij,fgj->fgi", self._maps, apply_matrix(self._read, source))
-            missed = wanted - apply_matrix(self._carried, displacements)
-            displacements += apply_matrix(self._spread, missed)
+            wanted = np.einsum("gij,fgj->fgi", self._maps, self._read(source))
+            missed = wanted - self._carried(displacements)
+            displacements[:, self._reached] += apply_matrix(self._spread, missed)
         return displacements
 
 
