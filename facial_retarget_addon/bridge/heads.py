@@ -15,10 +15,10 @@ from ..core.parts.kinds import NAMED_KINDS, NamedParts
 from ..core.points import FeaturePoints
 from ..core.problem import Face
 from ..files.mesh_file import MeshFile
-from .key_sets import check_relative, group_weights, key_names, masked_displacement
+from .key_sets import check_relative, group_weights, key_names
 from .meshes import read_positions, read_surface, stretch
 from .points import read_points
-from .shape_keys import find_key
+from .shape_keys import find_key, key_displacement
 
 BY_PLACE = "AUTO"
 """The role of a part that is told by where it lies."""
@@ -75,7 +75,7 @@ class Head:
 
         Parameters
         ----------
-        unmasked : vertex groups that shall not mask; see `masked_displacement`.
+        unmasked : vertex groups that shall not mask their keys.
 
         Raises
         ------
@@ -83,10 +83,16 @@ class Head:
         """
         moves = np.zeros((len(names), self.starts[-1], 3), np.float32)
         for thing, own, matrix in self.slices():
+            masks: dict[str, FloatArray] = {}
             for row, name in enumerate(names):
                 key = find_key(thing, name)
                 if key is not None:
-                    moves[row, own] = masked_displacement(thing, key, unmasked) @ matrix.T
+                    moved = key_displacement(key)
+                    if key.vertex_group in thing.vertex_groups and key.vertex_group not in unmasked:
+                        if key.vertex_group not in masks:
+                            masks[key.vertex_group] = group_weights(thing, key.vertex_group)
+                        moved *= masks[key.vertex_group][:, None]
+                    moves[row, own] = moved @ matrix.T
                     if not np.isfinite(moves[row, own]).all():
                         raise RetargetError(f"shape key {name!r} of object {thing.name!r} has vertices that are NaN")
         return moves

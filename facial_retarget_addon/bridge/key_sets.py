@@ -69,14 +69,6 @@ def write_traits(thing: Object, key: ShapeKey, traits: KeyTraits) -> None:
     key.relative_key = find_key(thing, traits.relative) or thing.data.shape_keys.reference_key
 
 
-def masked_displacement(thing: Object, key: ShapeKey, unmasked: Collection[str] = ()) -> FloatArray:
-    """(V, 3) float64 how a shape key at 1 moves the vertices, in own coordinates; groups in `unmasked` do not mask."""
-    moves = key_displacement(key)
-    if key.vertex_group in thing.vertex_groups and key.vertex_group not in unmasked:
-        moves *= group_weights(thing, key.vertex_group)[:, None]
-    return moves
-
-
 def group_weights(thing: Object, name: str) -> FloatArray:
     """(V,) weights of a vertex group, 0 outside it."""
     index = thing.vertex_groups[name].index
