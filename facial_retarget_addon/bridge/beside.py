@@ -6,7 +6,13 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
 
+from ..core.parts.kinds import NamedParts
+from ..files.job import FaceFiles
+from ..files.meshes import write_mesh
+from ..files.parts import write_parts
+from ..files.points import write_points
 from ..files.whole import Aside
+from .heads import Head
 
 T = TypeVar("T")
 
@@ -30,3 +36,16 @@ class Beside:
         """Write one file; returns where it will appear."""
         write(content, self._aside.place(self.path(name)))
         return self.path(name)
+
+    def head(self, role: str, head: Head) -> FaceFiles:
+        """Write a head's neutral, points and named parts."""
+
+        def parts(named: NamedParts, place: Path) -> None:
+            write_parts(named, head.face.mesh, place)
+
+        named = head.face.named_parts
+        return FaceFiles(
+            self.add(f"{role}.obj", write_mesh, head.file),
+            self.add(f"{role}_points.json", write_points, head.face.points),
+            parts=self.add(f"{role}_parts.json", parts, named) if named else None,
+        )

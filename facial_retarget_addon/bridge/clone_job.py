@@ -8,14 +8,9 @@ from pathlib import Path
 from bpy.types import Context, PropertyGroup
 
 from ..core.errors import RetargetError
-from ..core.parts.kinds import NamedParts
 from ..core.shapes.shape_set import ShapeSet
 from ..demo.shape_sets import POSES
 from ..files.clone_job import BuiltInActor, CloneJob, SourceFiles, TargetFiles, write_clone_job
-from ..files.job import FaceFiles
-from ..files.meshes import write_mesh
-from ..files.parts import write_parts
-from ..files.points import write_points
 from ..files.shape_files import add_shapes
 from ..files.whole import Aside, written_whole
 from .beside import Beside
@@ -53,19 +48,6 @@ class _HeadFiles(Beside):
     def __init__(self, job: Path, aside: Aside) -> None:
         super().__init__(job, aside)
         self._aside = aside
-
-    def head(self, role: str, head: Head) -> FaceFiles:
-        """Write a head's mesh, points and named parts."""
-
-        def parts(named: NamedParts, place: Path) -> None:
-            write_parts(named, head.face.mesh, place)
-
-        named = head.face.named_parts
-        return FaceFiles(
-            self.add(f"{role}.obj", write_mesh, head.file),
-            self.add(f"{role}_points.json", write_points, head.face.points),
-            parts=self.add(f"{role}_parts.json", parts, named) if named else None,
-        )
 
     def shapes(self, name: str, shapes: ShapeSet, head: Head) -> Path:
         """Write shapes of a head."""

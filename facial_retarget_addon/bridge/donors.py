@@ -18,7 +18,7 @@ from ..demo.shape_sets import face_shapes
 from ..files.mesh_file import MeshFile
 from .background import Steps, in_thread
 from .heads import Head, read_head, write_named_parts
-from .key_sets import KeyTraits, read_traits, write_keys
+from .key_sets import KeyTraits, check_relative, read_traits, write_keys
 from .meshes import new_face
 from .points import write_points
 from .shape_keys import find_key
@@ -128,11 +128,13 @@ def read_source_head(task: PropertyGroup) -> Head:
 
     Raises
     ------
-    RetargetError : if no source is chosen, or it has no shape keys.
+    RetargetError : if no source is chosen, or it has no shape keys, or absolute ones.
     """
     if task.source is None:
         raise RetargetError("no source is chosen, expected a mesh object under Faces, or the built-in actor")
     head = read_head(task.source)
+    for thing in head.things:
+        check_relative(thing)
     if not head.key_names():
         raise RetargetError(f"object {head.name!r} has no shape keys beside its Basis, expected some to clone")
     return head

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import numpy as np
 from bpy.types import Object, PropertyGroup
 
 from ..core.arrays import FloatArray
 from ..core.errors import RetargetError
 from ..core.mpeg4.expressions import EXPRESSIONS
-from .meshes import to_face_space
+from .heads import Head
 from .shape_keys import ensure_key, find_key, key_displacement, write_key
 
 
@@ -25,8 +26,10 @@ def write_example(thing: Object, name: str, positions: FloatArray) -> None:
     write_key(ensure_key(thing, name), positions)
 
 
-def read_examples(task: PropertyGroup) -> tuple[dict[str, FloatArray], dict[str, FloatArray]]:
-    """Displacements (V, 3) of the examples on source and target, in face space, float64.
+def read_examples(
+    task: PropertyGroup, source: Head, target: Head
+) -> tuple[dict[str, FloatArray], dict[str, FloatArray]]:
+    """Displacements (V, 3) of the examples on the task's source and target, in the heads' coordinates, float64.
 
     An example that moves neither face is not sculpted yet: it is left out.
 
@@ -34,22 +37,26 @@ def read_examples(task: PropertyGroup) -> tuple[dict[str, FloatArray], dict[str,
     ------
     RetargetError : if an example is missing on one face, or sculpted on one face only.
     """
-    source: dict[str, FloatArray] = {}
-    target: dict[str, FloatArray] = {}
+    on_source: dict[str, FloatArray] = {}
+    on_target: dict[str, FloatArray] = {}
     for example in task.examples:
-        on_source, on_target = (_displacement(thing, example.name) for thing in (task.source, task.target))
-        if on_source.any() and on_target.any():
-            source[example.name], target[example.name] = on_source, on_target
-        elif on_source.any() or on_target.any():
-            still = task.target if on_source.any() else task.source
+        ours, theirs = (_displacement(head, example.name) for head in (source, target))
+        if ours.any() and theirs.any():
+            on_source[example.name], on_target[example.name] = ours, theirs
+        elif ours.any() or theirs.any():
+            still = target if ours.any() else source
             raise RetargetError(
                 f"example {example.name!r} moves no vertex of object {still.name!r}, expected it sculpted on both faces"
             )
-    return source, target
+    return on_source, on_target
 
 
-def _displacement(thing: Object, name: str) -> FloatArray:
-    key = find_key(thing, name)
-    if key is None:
-        raise RetargetError(f"object {thing.name!r} has no shape key {name!r}, expected one for the example")
-    return to_face_space(thing, key_displacement(key))
+def _displacement(head: Head, name: str) -> FloatArray:
+    if name not in head.key_names():
+        raise RetargetError(f"object {head.name!r} has no shape key {name!r}, expected one for the example")
+    moves = np.zeros((head.starts[-1], 3))
+    for thing, own, matrix in head.slices():
+        key = find_key(thing, name)
+        if key is not None:
+            moves[own] = key_displacement(key) @ matrix.T
+    return moves

@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from bpy.types import Object
+from bpy.types import Depsgraph, Object
 
 from ..core.arrays import FloatArray, IntArray
 from ..core.errors import RetargetError
@@ -15,8 +15,8 @@ from ..core.parts.kinds import NAMED_KINDS, NamedParts
 from ..core.points import FeaturePoints
 from ..core.problem import Face
 from ..files.mesh_file import MeshFile
-from .key_sets import check_relative, group_weights, key_names
-from .meshes import read_positions, read_surface, stretch
+from .key_sets import group_weights, key_names
+from .meshes import evaluated_positions, from_face_space, read_positions, read_surface, stretch
 from .points import read_points
 from .shape_keys import find_key, key_displacement
 
@@ -62,6 +62,11 @@ class Head:
         """Names of the face object's vertex groups."""
         return set(self.things[0].vertex_groups.keys())
 
+    def positions(self, thing: Object, moves: FloatArray) -> FloatArray:
+        """(..., v, 3) in own coordinates: an object whose vertices move by `moves` (..., v, 3) of the head's."""
+        inverse = np.linalg.inv(self.linear[self.things.index(thing)]).T
+        return read_positions(thing.data) + (moves @ inverse).astype(np.float32)
+
     def key_names(self) -> list[str]:
         """Names of all shape keys that the objects have, each once."""
         return list(dict.fromkeys(name for thing in self.things for name in key_names(thing)))
@@ -98,19 +103,26 @@ class Head:
         return moves
 
 
-def read_head(face: Object) -> Head:
+def read_head(face: Object, neutral: FloatArray | None = None) -> Head:
     """A face object and its parts, each where it stands.
+
+    Parameters
+    ----------
+    neutral : (V, 3) positions of all vertices in the head's coordinates; None for each object's Basis.
 
     Raises
     ------
-    RetargetError : if one is no surface, is scaled to nothing, has absolute shape keys, or is listed twice.
+    RetargetError : if one is no surface, is scaled to nothing, or is listed twice.
     """
     things = (face, *head_parts(face))
-    for thing in things:
-        check_relative(thing)
-    matrices = [_own_to_head(face, thing) for thing in things]
-    files = [_surface(thing, matrix) for thing, matrix in zip(things, matrices, strict=True)]
-    starts = np.cumsum([0, *(len(file.mesh.vertices) for file in files)])
+    matrices = [own_to_head(face, thing) for thing in things]
+    starts = np.cumsum([0, *(len(thing.data.vertices) for thing in things)])
+    files = []
+    for thing, matrix, first, last in zip(things, matrices, starts, starts[1:], strict=False):
+        places = (
+            _moved(read_positions(thing.data).astype(np.float64), matrix) if neutral is None else neutral[first:last]
+        )
+        files.append(read_surface(thing, places, bool(np.linalg.det(matrix[:3, :3]) < 0)))
     file = _joined(files, starts)
     return Head(
         things,
@@ -138,8 +150,13 @@ def head_parts(face: Object) -> list[Object]:
     return things
 
 
-def _own_to_head(face: Object, thing: Object) -> FloatArray:
-    """(4, 4) an object's own coordinates to face space of the head's face."""
+def own_to_head(face: Object, thing: Object) -> FloatArray:
+    """(4, 4) an object's own coordinates to face space of the head's face, as both stand now.
+
+    Raises
+    ------
+    RetargetError : if one of them is scaled to nothing.
+    """
     to_face = np.eye(4)
     to_face[:3, :3] = stretch(face)
     if thing == face:
@@ -151,9 +168,23 @@ def _own_to_head(face: Object, thing: Object) -> FloatArray:
     return to_face @ np.linalg.solve(world, own)
 
 
-def _surface(thing: Object, matrix: FloatArray) -> MeshFile:
-    places = read_positions(thing.data).astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
-    return read_surface(thing, places, bool(np.linalg.det(matrix[:3, :3]) < 0))
+def head_now(things: Sequence[Object], depsgraph: Depsgraph) -> FloatArray:
+    """(V, 3) float32 positions of a face and its parts as they look now, in face space of the face.
+
+    Raises
+    ------
+    RetargetError : as `evaluated_positions` and `own_to_head`.
+    """
+    face = things[0]
+    places = [evaluated_positions(face, depsgraph)]
+    for part in things[1:]:
+        own = from_face_space(part, evaluated_positions(part, depsgraph))
+        places.append(_moved(own.astype(np.float64), own_to_head(face, part)).astype(np.float32))
+    return places[0] if len(places) == 1 else np.concatenate(places)
+
+
+def _moved(places: FloatArray, matrix: FloatArray) -> FloatArray:
+    return places @ matrix[:3, :3].T + matrix[:3, 3]
 
 
 def _joined(files: Sequence[MeshFile], starts: IntArray) -> MeshFile:

@@ -13,10 +13,9 @@ from ..core.errors import RetargetError
 from ..core.problem import Face, Problem
 from ..files.base_mesh import write_base_mesh
 from ..files.frames import write_frames as write_frames_file
-from ..files.job import ExampleFiles, FaceFiles, Job, OutputFiles, read_job, write_job
+from ..files.job import ExampleFiles, Job, OutputFiles, read_job, write_job
 from ..files.mesh_file import MeshFile
 from ..files.meshes import write_mesh
-from ..files.points import write_points as write_points_file
 from ..files.run import read_inputs
 from ..files.whole import written_whole
 from .background import Steps, part
@@ -24,11 +23,12 @@ from .bake import write_frames
 from .base_object import show_triangles
 from .beside import Beside
 from .examples import write_example
-from .meshes import new_face, read_face
+from .heads import write_named_parts
+from .meshes import new_face
 from .performance import read_frames
 from .points import write_points
 from .settings import read_task_settings, write_task_settings
-from .task import frame_range, read_problem
+from .task import frame_range, read_heads, read_problem
 
 
 def save_job_steps(context: Context, path: Path) -> Steps[None]:
@@ -39,15 +39,12 @@ def save_job_steps(context: Context, path: Path) -> Steps[None]:
     RetargetError : for anything that the task lacks, or if the system refuses to write.
     """
     task = context.scene.facial_retarget
-    problem, settings = read_problem(context), read_task_settings(task)
+    problem, settings, heads = read_problem(context), read_task_settings(task), read_heads(context)
     frames = yield from part(read_frames(context, task.source, frame_range(context)), 0.0, 0.8)
     yield 0.8, "Writing"
     with written_whole() as aside:
-        files = _FaceFiles(path, aside)
-        source, target = (
-            files.face("source", task.source, problem.source),
-            files.face("target", task.target, problem.target),
-        )
+        files = _ExampleFiles(path, aside)
+        source, target = (files.head(role, head) for role, head in zip(("source", "target"), heads, strict=True))
         base = None if problem.base is None else files.add("base.json", write_base_mesh, problem.base)
         job = Job(
             task.method,
@@ -64,13 +61,8 @@ def save_job_steps(context: Context, path: Path) -> Steps[None]:
         write_job(job, aside.place(path))
 
 
-class _FaceFiles(Beside):
-    """The files of a task's faces."""
-
-    def face(self, role: str, thing: Object, face: Face) -> FaceFiles:
-        """Write a face's neutral and points."""
-        neutral = self.add(f"{role}.obj", write_mesh, read_face(thing, face.mesh.vertices))
-        return FaceFiles(neutral, self.add(f"{role}_points.json", write_points_file, face.points))
+class _ExampleFiles(Beside):
+    """The files of a task's heads and examples."""
 
     def example(self, problem: Problem, name: str) -> ExampleFiles:
         """Write an example of both faces."""
@@ -135,10 +127,11 @@ def _check_examples(face: Face) -> None:
 
 
 def _make_face(name: str, file: MeshFile, face: Face, up: str) -> Object:
-    """A new object with its points, and its examples as shape keys."""
+    """A new object with its points, its named parts as vertex groups, and its examples as shape keys."""
     thing = new_face(name, file)
     thing.rotation_euler.x = radians(90) if up == "Y" else 0.0
     write_points(thing, face.points)
+    write_named_parts(thing, face.named_parts)
     for example, positions in face.examples.items():
         write_example(thing, example, positions)
     return thing

@@ -25,7 +25,7 @@ def show_levels(thing: Object, levels: Sequence[LevelMotion]) -> Object:
 
     Parameters
     ----------
-    levels : displacements (1, V, 3) in face space.
+    levels : displacements (1, V, 3) in face space, the object's own vertices first.
     """
     label = f"{thing.name} levels"
     step = Matrix.Translation((BESIDE * thing.dimensions.x, 0, 0))
@@ -40,7 +40,7 @@ def show_levels(thing: Object, levels: Sequence[LevelMotion]) -> Object:
     made.matrix_world = place
     for level in levels:
         key = ensure_key(made, level.name)
-        write_key(key, neutral + from_face_space(thing, level.displacements[0]))
+        write_key(key, neutral + from_face_space(thing, level.displacements[0, : len(neutral)]))
         key.slider_max, key.value = MOST, 1.0
     made.data.update()
     return made

@@ -72,9 +72,9 @@ def _faps_steps(context: Context, thing: Object, path: Path, frames: range, sour
             context.scene.frame_set(frame)
             values[i] = read_controls(thing, context.evaluated_depsgraph_get())
         elif source == "MOVING":
-            values[i] = measure_moving_head(face, read_frame(context, thing, frame)[None])[0][0]
+            values[i] = measure_moving_head(face, read_frame(context, (thing,), frame)[None])[0][0]
         else:
-            values[i] = face.measure(read_frame(context, thing, frame)[None])[0]
+            values[i] = face.measure(read_frame(context, (thing,), frame)[None])[0]
         if source != "MOVING":
             values[i, HEAD_TURNS] = read_head(thing, context.evaluated_depsgraph_get())
 

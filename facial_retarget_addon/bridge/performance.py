@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 
 import numpy as np
@@ -11,7 +11,7 @@ from bpy.types import Context, Object, Scene
 from ..core.arrays import FloatArray
 from ..core.errors import RetargetError
 from .background import Steps
-from .meshes import evaluated_positions
+from .heads import head_now, head_parts
 
 
 @contextmanager
@@ -29,17 +29,20 @@ def scene_rate(scene: Scene) -> float:
     return scene.render.fps / scene.render.fps_base
 
 
-def read_frame(context: Context, thing: Object, frame: int) -> FloatArray:
-    """(V, 3) float32 positions of an object at one frame, in face space; the scene is left at that frame.
+def read_frame(context: Context, things: Sequence[Object], frame: int) -> FloatArray:
+    """(V, 3) float32 positions of a face and its parts at one frame, in face space; the scene is left at that frame.
 
     Raises
     ------
-    RetargetError : if the object is hidden (Blender does not evaluate it then), or its vertices change in number.
+    RetargetError : if one is hidden (Blender does not evaluate it then), or its vertices change in number.
     """
-    if not thing.visible_get(view_layer=context.view_layer):
-        raise RetargetError(f"object {thing.name!r} is hidden, expected it visible: Blender evaluates nothing hidden")
+    for thing in things:
+        if not thing.visible_get(view_layer=context.view_layer):
+            raise RetargetError(
+                f"object {thing.name!r} is hidden, expected it visible: Blender evaluates nothing hidden"
+            )
     context.scene.frame_set(frame)
-    return evaluated_positions(thing, context.evaluated_depsgraph_get())
+    return head_now(things, context.evaluated_depsgraph_get())
 
 
 def each_frame(scene: Scene, frames: range, read: Callable[[int, int], None]) -> Steps[None]:
@@ -59,17 +62,18 @@ def each_frame(scene: Scene, frames: range, read: Callable[[int, int], None]) ->
             yield (i + 1) / len(frames), f"Reading frame {frame}"
 
 
-def read_frames(context: Context, thing: Object, frames: range) -> Steps[FloatArray]:
-    """Read a performance; returns (F, V, 3) float32 in face space.
+def read_frames(context: Context, face: Object, frames: range) -> Steps[FloatArray]:
+    """Read the performance of a face and its parts; returns (F, V, 3) float32 in face space.
 
     Raises
     ------
     RetargetError : as `each_frame` and `read_frame`.
     """
-    positions = np.empty((len(frames), len(thing.data.vertices), 3), np.float32)
+    things = (face, *head_parts(face))
+    positions = np.empty((len(frames), sum(len(thing.data.vertices) for thing in things), 3), np.float32)
 
     def read(i: int, frame: int) -> None:
-        positions[i] = read_frame(context, thing, frame)
+        positions[i] = read_frame(context, things, frame)
 
     yield from each_frame(context.scene, frames, read)
     return positions

@@ -15,7 +15,8 @@ from ..core.retarget import Result, level_motions, retarget
 from ..files.pages.report import report_json, report_page
 from ..files.whole import written_whole
 from .background import Steps, in_thread, part
-from .bake import write_frames
+from .bake import write_head_frames
+from .heads import read_head
 from .level_object import show_levels
 from .performance import read_frames
 from .settings import read_task_settings
@@ -46,7 +47,7 @@ def retarget_steps(context: Context) -> Steps[dict[str, Any]]:
     result = yield from part(in_thread(compute), READING, COMPUTING)
     yield READING + COMPUTING, "Writing"
     _write_report(task, problem, source, result)
-    write_frames(task.target, result.frames, frames.start)
+    write_head_frames(read_head(task.target), result.frames, frames.start)
     return result.report
 
 

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from bpy.types import Context, Object, PropertyGroup
 
 from ..core.arrays import FloatArray
 from ..core.errors import RetargetError
-from ..core.mesh import TriMesh
 from ..core.problem import Face, Problem
 from .base_object import read_base
 from .examples import read_examples
-from .meshes import neutral_mesh
+from .heads import Head, head_parts, read_head
 from .performance import frame_kept, read_frame
-from .points import read_points
 from .raycast import available_caster
 
 
@@ -39,27 +39,39 @@ def _chosen_faces(task: PropertyGroup) -> tuple[Object, Object]:
 
 
 def read_problem(context: Context) -> Problem:
-    """Both faces as they are now, with points and examples.
+    """Both heads as they are now, with points, named parts and examples.
 
     Raises
     ------
     RetargetError : if something is missing or bad; says what, and on which object.
     """
-    task = context.scene.facial_retarget
-    source, target = _chosen_faces(task)
-    on_source, on_target = read_examples(task)
-    neutral = None
-    if task.source_neutral == "FRAME":
-        with frame_kept(context.scene):
-            neutral = read_frame(context, source, task.neutral_frame).astype("float64")
+    heads = read_heads(context)
+    on_source, on_target = read_examples(context.scene.facial_retarget, *heads)
+    base = context.scene.facial_retarget.base
     return Problem(
-        source=_face(source, neutral_mesh(source, neutral), on_source),
-        target=_face(target, neutral_mesh(target), on_target),
-        base=None if task.base is None else read_base(task.base),
+        source=_face(heads[0], on_source),
+        target=_face(heads[1], on_target),
+        base=None if base is None else read_base(base),
         make_caster=available_caster(),
     )
 
 
-def _face(thing: Object, mesh: TriMesh, displacements: dict[str, FloatArray]) -> Face:
-    examples = {name: mesh.vertices + displacement for name, displacement in displacements.items()}
-    return Face(mesh, read_points(thing), examples)
+def read_heads(context: Context) -> tuple[Head, Head]:
+    """The task's source and target with their parts, the source in its neutral.
+
+    Raises
+    ------
+    RetargetError : if one is not chosen, both are one object, or as `read_head` and `read_frame`.
+    """
+    task = context.scene.facial_retarget
+    source, target = _chosen_faces(task)
+    neutral = None
+    if task.source_neutral == "FRAME":
+        with frame_kept(context.scene):
+            neutral = read_frame(context, (source, *head_parts(source)), task.neutral_frame).astype("float64")
+    return read_head(source, neutral), read_head(target)
+
+
+def _face(head: Head, displacements: dict[str, FloatArray]) -> Face:
+    vertices = head.face.mesh.vertices
+    return replace(head.face, examples={name: vertices + moves for name, moves in displacements.items()})
