@@ -10,7 +10,11 @@ from facial_retarget_addon.core.acting.fap_face import FapFace, fit_fap_face
 from facial_retarget_addon.core.closest_point import SurfaceFinder
 from facial_retarget_addon.core.mesh import TriMesh
 from facial_retarget_addon.core.methods.base import fit
-from facial_retarget_addon.core.methods.settings import FeaturePointSettings, HierarchicalSettings
+from facial_retarget_addon.core.methods.settings import (
+    FeaturePointSettings,
+    HierarchicalSettings,
+    MotionCloningSettings,
+)
 from facial_retarget_addon.core.mpeg4.fdps import FDPS
 from facial_retarget_addon.core.mpeg4.head import head_axes
 from facial_retarget_addon.core.parts.carried_parts import carried_parts
@@ -31,6 +35,7 @@ from facial_retarget_addon.core.parts.kinds import (
 )
 from facial_retarget_addon.core.parts.known_head import know_head, scale_between
 from facial_retarget_addon.core.parts.lacking import lacking_parts
+from facial_retarget_addon.core.parts.riding import ride
 from facial_retarget_addon.core.points import FeaturePoints
 from facial_retarget_addon.core.problem import Face, Problem
 from facial_retarget_addon.core.rigid import fit_rigid
@@ -644,3 +649,21 @@ def test_a_named_eyeball_turns_on_a_head_without_a_mouth(shared_data: Path) -> N
     away = (target.mesh.vertices + moved)[target.eyeballs["left"].vertices] - target.eyeballs["left"].centre
     rest = target.mesh.vertices[target.eyeballs["left"].vertices] - target.eyeballs["left"].centre
     np.testing.assert_allclose(np.linalg.norm(away, axis=1), np.linalg.norm(rest, axis=1), atol=1e-3 * target.mesh.size)
+
+
+def test_lashes_keep_their_lengths_in_a_blink(ict: Head, makehuman: Head) -> None:
+    source, target = Face(ict.mesh, ict.points), Face(makehuman.mesh, makehuman.points)
+    fitted = fit("motion_cloning", Problem(source, target), MotionCloningSettings())
+    frames = (ict.mesh.vertices + np.stack([ict.moves["eyeBlink_L"], 0 * ict.mesh.vertices])).astype(np.float32)
+    blink, still = fitted.frames(frames)
+    np.testing.assert_array_equal(still, makehuman.mesh.vertices.astype(np.float32))
+    head = know_head(target)
+    riding = ride(head, head.parts)
+    for eye in riding.tips:
+        held = eye.vertices[np.abs(eye.lid) > 0.99]
+        assert len(held) > 10
+        before, after = (
+            np.linalg.norm(places[held] - riding.spread[held] @ places, axis=1)
+            for places in (makehuman.mesh.vertices, blink.astype(np.float64))
+        )
+        np.testing.assert_allclose(after, before, rtol=0.03)

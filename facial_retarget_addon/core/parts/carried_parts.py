@@ -9,6 +9,7 @@ from ..problem import Face
 from .eyes import EyeTurns, pair_eyeballs
 from .follow import Following, following_of
 from .known_head import know_head
+from .lash_lengths import LashLengths, fit_lash_lengths
 from .lash_turns import LashTurns, fit_lash_turns
 from .mouth import Mouth, fit_mouth
 from .report import FOLLOWS, part_rows
@@ -18,13 +19,15 @@ from .riding import ride
 class CarriedParts(NamedTuple):
     """What moves beside the skin.
 
-    following : what rides on the target's skin. lashes : how they turn beyond that, as the source's do.
+    following : what rides on the target's skin. lashes : how they turn beyond that, as the source's do, and how long
+        they are.
     mouth : teeth, gums and tongue. eyes : eyeballs.
     rows : what each part does. moves : (Vt,) which vertices move.
     """
 
     following: Following
     lashes: LashTurns | None
+    lengths: LashLengths | None
     mouth: Mouth | None
     eyes: EyeTurns
     rows: list[dict[str, Any]]
@@ -35,7 +38,8 @@ class CarriedParts(NamedTuple):
         for moving in (self.lashes, self.mouth, self.eyes):
             if moving is not None:
                 moving.add_to(displacements, frames)
-        return self.following.add_to(displacements)
+        moved = self.following.add_to(displacements)
+        return moved if self.lengths is None else self.lengths.hold_in(moved)
 
 
 def carried_parts(source: Face, target: Face, own: BoolArray) -> CarriedParts:
@@ -58,4 +62,5 @@ def carried_parts(source: Face, target: Face, own: BoolArray) -> CarriedParts:
         moves[mouth.moves()] = True
         does |= mouth.does()
     rows = part_rows(theirs.parts, moves, own, does)
-    return CarriedParts(following, fit_lash_turns(ours, theirs, riding), mouth, eyes, rows, moves)
+    lashes = fit_lash_turns(ours, theirs, riding), fit_lash_lengths(theirs.mesh, riding)
+    return CarriedParts(following, *lashes, mouth, eyes, rows, moves)
