@@ -501,6 +501,40 @@ def test_a_tongue_acts_as_the_source_s_does(makehuman: Head) -> None:
     assert carried.rows[0]["does"].startswith("acts as the source's does")
 
 
+def carried_over(source: Face, target: Face, frames: np.ndarray, skin: np.ndarray) -> np.ndarray:
+    """(F, V, 3) what the target's parts do, where its skin moves as skin (F, V, 3)."""
+    carried = carried_parts(source, target, np.zeros(len(target.mesh.vertices), bool))
+    return carried.add_to(skin.astype(np.float32), frames.astype(np.float32))
+
+
+def test_order_place_size_and_turn_of_both_heads_do_not_matter(ict: Head, makehuman: Head) -> None:
+    moves = np.stack([ict.moves[name] for name in ("jawOpen", "jawLeft", "eyeBlink_L", "mouthSmile_L")])
+    frames = ict.mesh.vertices + moves
+    rng = np.random.default_rng(6)
+    smooth = 0.1 * np.sin(makehuman.mesh.vertices[None] * rng.uniform(1, 2, (len(frames), 1, 3)))
+    skin = smooth * (makehuman.names == "skin")[:, None]
+    source, target = Face(ict.mesh, ict.points), Face(makehuman.mesh, makehuman.points)
+    wanted = carried_over(source, target, frames, skin)
+    turn, shift = np.array([[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]]), [3.0, -20.0, 7.0]
+    for size, head in ((0.2, ict), (30.0, makehuman)):
+        placed = Face(head.mesh.with_vertices(size * head.mesh.vertices @ turn.T + shift), head.points)
+        if head is ict:
+            found = carried_over(placed, target, size * frames @ turn.T + shift, skin)
+        else:
+            found = carried_over(source, placed, frames, size * skin @ turn.T) @ turn / size
+        np.testing.assert_allclose(found, wanted, atol=1e-3 * makehuman.known.unit)
+    ours, theirs = (rng.permutation(len(head.names)) for head in (ict, makehuman))
+    mixed = [
+        Face(
+            TriMesh(head.mesh.vertices[order], np.argsort(order)[head.mesh.faces]),
+            FeaturePoints(head.points.names, np.argsort(order)[head.points.vertices], head.points.weights),
+        )
+        for head, order in ((ict, ours), (makehuman, theirs))
+    ]
+    found = carried_over(*mixed, frames[:, ours], skin[:, theirs])
+    np.testing.assert_allclose(found, wanted[:, theirs], atol=2e-3 * makehuman.known.unit)
+
+
 def test_a_head_that_is_carried_away_takes_its_parts_along(ict: Head, makehuman: Head) -> None:
     turn = np.array([[0.96, 0.0, 0.28], [0.0, 1.0, 0.0], [-0.28, 0.0, 0.96]])
     shift = np.array([20.0, -5.0, 8.0])
