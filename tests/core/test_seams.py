@@ -123,6 +123,19 @@ def test_gaps_are_whole_in_the_neutral_and_gone_in_a_blink(actor: demo.DemoFace,
     np.testing.assert_allclose(found["lip_gap_percent"], 0, atol=0.01)
 
 
+def test_lips_whose_inner_points_are_one_place_are_measured_outside(actor: demo.DemoFace) -> None:
+    points = actor.face.points
+    row = {name: k for k, name in enumerate(points.names)}
+    vertices, weights = points.vertices.copy(), points.weights.copy()
+    for upper, lower in (("2.2", "2.3"), ("2.6", "2.8"), ("2.7", "2.9")):
+        vertices[row[lower]], weights[row[lower]] = vertices[row[upper]], weights[row[upper]]
+    welded = Face(actor.face.mesh, FeaturePoints(points.names, vertices, weights))
+    opened = actor.frames(demo.contractions({"jaw": 1.0}))
+    found = SeamGaps(Problem(actor.face, welded)).measured(opened, opened)
+    assert found["lip_gap_percent"] == found["source_lip_gap_percent"]
+    assert found["lip_gap_percent"][0] > 20
+
+
 # ---- folds --------------------------------------------------------------------------------------
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,8 +15,13 @@ from .margins import has_points
 
 LIPS = (("2.2", "2.3"), ("2.6", "2.8"), ("2.7", "2.9"))
 """FDPs opposite to one another on the inner edges of the lips."""
+OUTER_LIPS = (("8.1", "8.2"),)
+"""The same on their outer edges, where the inner ones are not told apart."""
 MOUTH = (("2.4", "2.5"), ("8.3", "8.4"))
 """FDPs of the corners of the mouth: the inner ones, or else the outer ones."""
+
+SHARED = 0.5
+"""Points that share this much of the vertices' weights that hold them are one place."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,9 +55,8 @@ class _LipOpening:
     width: float
 
     @classmethod
-    def measured(cls, face: Face) -> _LipOpening | None:
+    def measured(cls, face: Face, pairs: Sequence[tuple[str, str]]) -> _LipOpening | None:
         points, vertices = face.points, face.mesh.vertices
-        pairs = [pair for pair in LIPS if has_points(points, pair)]
         corners = [pair for pair in MOUTH if has_points(points, pair)]
         if not pairs or not corners:
             return None
@@ -82,7 +86,8 @@ class SeamGaps:
             [_LidOpening.measured(found[side], face.mesh.vertices) for side in both]
             for found, face in zip(eyes, faces, strict=True)
         ]
-        self._lips = [_LipOpening.measured(face) for face in faces]
+        pairs = _lip_pairs([face.points for face in faces])
+        self._lips = [_LipOpening.measured(face, pairs) for face in faces]
 
     def measured(self, source: FloatArray, target: FloatArray) -> Mapping[str, list[float]]:
         """A figure for each of the frames (F, Vs, 3) and (F, Vt, 3).
@@ -104,3 +109,21 @@ class SeamGaps:
             found["lip_gap_percent"] = lips[1].percent(target).tolist()
             found["source_lip_gap_percent"] = lips[0].percent(source).tolist()
         return found
+
+
+def _lip_pairs(faces: Sequence[FeaturePoints]) -> list[tuple[str, str]]:
+    """Points opposite to one another on the lips that are different places on all faces."""
+    for pairs in (LIPS, OUTER_LIPS):
+        found = [pair for pair in pairs if all(_are_apart(points, pair) for points in faces)]
+        if found:
+            return found
+    return []
+
+
+def _are_apart(points: FeaturePoints, pair: tuple[str, str]) -> bool:
+    """Whether a face has both points, and they share less than half of what holds them; lips that touch are apart."""
+    if not has_points(points, pair):
+        return False
+    two = points.subset(pair)
+    one, other = two.matrix(int(two.vertices.max()) + 1).toarray()
+    return float(np.minimum(one, other).sum()) < SHARED
