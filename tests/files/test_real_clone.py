@@ -69,6 +69,8 @@ def test_a_whole_set_goes_onto_a_head(name: str, folder: Path) -> None:
     for shape, why in lost.items():
         assert any(shape in warning and why in warning for warning in report["warnings"])
     assert moved["browInnerUp_L"] > 0.005
+    assert report["quality"]["torn_edges_per_million"] <= 15
+    assert report["quality"]["flipped_triangles_per_million"] <= 100
     if name == "robot":
         assert set(MOUTH) <= set(lost)
         assert "mouth" in lost["jawOpen"]

@@ -33,7 +33,8 @@ _SECTIONS = (
         "Shapes",
         ("shapes",),
         "Largest motion in the target's units, and as a share of the source's in the proportions of the heads. Torn "
-        "edges grew to several times their length, flipped triangles turned over.",
+        "edges grew to several times their length, flipped triangles turned over. Lid gaps are in percent of the eye's "
+        "neutral opening, lip gaps, beyond the neutral one, of the mouth's width.",
     ),
     Section("Without counterpart", ("without_counterpart",), "They move the source; the target stays still, and why."),
     Section(
