@@ -20,6 +20,9 @@ OUTSIDE = 0.0
 INSIDE_COST = 20.0
 """How much longer a way counts where the surface looks at the eyeball."""
 
+_LIKELY = 5.0
+"""A margin is rarely longer, its costs counted, than so many straight lines between its points."""
+
 
 def lid_steps(mesh: TriMesh, steps: sp.csr_matrix, ball: Eyeball) -> sp.csr_matrix:
     """The steps (V, V) of a graph on a face, longer where the surface looks at an eyeball.
@@ -36,10 +39,17 @@ def lid_steps(mesh: TriMesh, steps: sp.csr_matrix, ball: Eyeball) -> sp.csr_matr
     return sp.csr_matrix((cost, (entries.row, entries.col)), shape=steps.shape)
 
 
-def shortest_way(steps: sp.csr_matrix, start: int, stop: int) -> IntArray:
-    """Vertices of the shortest way from start to stop, both included; none if there is no way."""
-    distance, before = dijkstra(steps, directed=False, indices=start, return_predecessors=True)
-    if not np.isfinite(distance[stop]):
+def shortest_way(steps: sp.csr_matrix, start: int, stop: int, likely: float = np.inf) -> IntArray:
+    """Vertices of the shortest way from start to stop, both included; none if there is no way.
+
+    steps : (V, V), the same both ways.
+    likely : a length within which it is looked for first, to save time.
+    """
+    for limit in (likely, np.inf):
+        distance, before = dijkstra(steps, indices=start, return_predecessors=True, limit=limit)
+        if np.isfinite(distance[stop]):
+            break
+    else:
         return np.empty(0, np.int64)
     way = [stop]
     while before[way[-1]] >= 0:
@@ -72,8 +82,9 @@ def guided_margin(mesh: TriMesh, steps: sp.csr_matrix, points: FeaturePoints, ea
     points : (P,) along the margin, from corner to corner.
     each : guides from one point to the next, which has the first of its own.
     """
-    corners = points.holders
-    ways = [shortest_way(steps, int(a), int(b)) for a, b in pairwise(corners)]
+    ends = [(int(a), int(b)) for a, b in pairwise(points.holders)]
+    straight = [float(np.linalg.norm(mesh.vertices[b] - mesh.vertices[a])) for a, b in ends]
+    ways = [shortest_way(steps, a, b, _LIKELY * length) for (a, b), length in zip(ends, straight, strict=True)]
     if not all(len(way) for way in ways):
         return None
     shares = [_shares(mesh.vertices[way]) for way in ways]
