@@ -1,6 +1,6 @@
 """The limit of modified butterfly at valences 4, 5 and 7 as a picture, Loop's beneath.
 
-    .venv/bin/python -m bench.butterfly_limit picture.png
+``.venv/bin/python -m bench.butterfly_limit picture.png``
 """
 
 from __future__ import annotations

@@ -42,7 +42,7 @@ _REACH = 0.35
 class Frames:
     """How motion goes from the source's base to the target's.
 
-    scale : square root of the ratio of the base meshes' areas, target over source.
+    scale : of lengths, target over source.
     rotations : (B, 3, 3) at the base vertices.
     """
 
@@ -135,14 +135,15 @@ def _frames(pair: Pair, bank: Wavelets, read: sp.csr_matrix, paper: bool) -> Fra
     source, target = (
         TriMesh(bank.analyse(fine)[0], pair.base.faces) for fine in (read @ pair.source.vertices, pair.finest.positions)
     )
-    scale = float(np.sqrt(target.area / source.area))
     if paper:
+        # The printed ratio of areas is one of squared lengths.
+        scale = float(np.sqrt(target.area / source.area))
         return Frames(scale, frame_rotations(source, target, "taubin", agreement=None))
     rotations = frame_rotations(source, target)
     around = adjacency(source) + sp.eye(len(rotations))
     for _ in range(_SMOOTHING):
         rotations = _mean(around, rotations)
-    return Frames(scale, rotations)
+    return Frames(pair.similarity.scale, rotations)
 
 
 def _on_levels(pair: Pair, rotations: FloatArray) -> list[FloatArray]:
