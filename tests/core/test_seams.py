@@ -15,6 +15,7 @@ from facial_retarget_addon.core.points import FeaturePoints
 from facial_retarget_addon.core.problem import Face, Problem
 from facial_retarget_addon.core.seams.gaps import SeamGaps
 from facial_retarget_addon.core.seams.lids import GUIDES, LidSeams, find_eye_margins
+from facial_retarget_addon.core.seams.margins import on_rim
 from facial_retarget_addon.core.unfolding import Unfolding
 
 
@@ -69,6 +70,22 @@ def test_a_face_without_lids_points_has_no_margins(actor: demo.DemoFace) -> None
     one_eyed = points.subset([name for name in points.names if name != "3.1"])
     assert set(find_eye_margins(actor.face.mesh, one_eyed)) == {"right"}
     assert find_eye_margins(actor.face.mesh, points.subset(["2.1", "9.3", "8.3", "8.4"])) == {}
+
+
+def test_a_point_behind_the_rim_is_led_out_to_it(actor: demo.DemoFace) -> None:
+    mesh, points = actor.face.mesh, actor.face.points
+    true = find_eye_margins(mesh, points)["left"].upper
+    here = points.subset(["3.1"]).holders[0]
+    # Behind the rim: a vertex of the lid's inner side, which looks at the eyeball.
+    behind = [v for v in np.flatnonzero(mesh.graph[here].toarray().ravel()) if v not in true.vertices]
+    inner = max(behind, key=lambda v: -mesh.vertices[v, 2])
+    steps = mesh.graph.copy().tolil()
+    steps[inner] *= 20
+    steps[:, inner] *= 20
+    ends = (int(true.vertices[0]), int(true.vertices[-1]))
+    found = on_rim(mesh, steps.tocsr(), ends, int(inner), 0.5)
+    assert found != inner
+    assert on_rim(mesh, mesh.graph, ends, int(here), 0.5) == here
 
 
 # ---- lids ---------------------------------------------------------------------------------------

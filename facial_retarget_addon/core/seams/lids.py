@@ -17,12 +17,14 @@ from ..mesh import TriMesh
 from ..mpeg4.fdps import FDPS
 from ..mpeg4.head import head_axes
 from ..points import FeaturePoints
-from .margins import GuidedMargin, guided_margin, has_points, lid_steps
+from .margins import GuidedMargin, guided_margin, has_points, lid_steps, on_rim
 
 GUIDES = 3
 """From a corner of the eye to the middle of a lid."""
 AROUND = 1.5
 """How far from its middle an eye's margins are looked for, in widths of the eye."""
+PAST = 0.75
+"""How far from the point of a lid's middle its margin may go by, in openings of the eye."""
 REACH = 0.5
 """How far a correction reaches from the margin, in widths of the eye."""
 LEAST, MOST = 1 / 3, 3.0
@@ -59,7 +61,7 @@ class EyeMargins:
 def find_eye_margins(mesh: TriMesh, points: FeaturePoints) -> dict[str, EyeMargins]:
     """The margins of each eye (left, right) whose lids and corners are among the points.
 
-    The ways along the margins are those of `acting.eyelids`.
+    The ways along the margins are those of `acting.eyelids`, but they need not go through a point behind the rim.
     """
     known = points.subset([name for name in points.names if name in FDPS])
     wanted = {side: names for side, names in EYES.items() if has_points(known, names[:4])}
@@ -73,9 +75,12 @@ def find_eye_margins(mesh: TriMesh, points: FeaturePoints) -> dict[str, EyeMargi
         around = lid_steps(
             mesh, shortcut_graph(TriMesh(mesh.vertices, mesh.faces[near[mesh.faces].all(axis=1)])), balls[side]
         )
-        margins = [
-            guided_margin(mesh, around, known.subset([outer, middle, inner]), GUIDES) for middle in (upper, lower)
-        ]
+        corners, middles = known.subset([outer, inner]).holders, known.subset([upper, lower]).holders
+        reach = PAST * float(np.linalg.norm(mesh.vertices[middles[0]] - mesh.vertices[middles[1]]))
+        margins = []
+        for near in middles:
+            middle = on_rim(mesh, around, (int(corners[0]), int(corners[1])), int(near), reach)
+            margins.append(guided_margin(mesh, around, np.array([corners[0], middle, corners[1]]), GUIDES))
         if margins[0] is not None and margins[1] is not None:
             found[side] = EyeMargins(margins[0], margins[1])
     return found

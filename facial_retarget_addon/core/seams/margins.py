@@ -19,9 +19,10 @@ OUTSIDE = 0.0
 """A lid's skin looks away from the eyeball by more than this cosine; its margin looks sideways, its inside back."""
 INSIDE_COST = 20.0
 """How much longer a way counts where the surface looks at the eyeball."""
-
-_LIKELY = 5.0
-"""A margin is rarely longer, its costs counted, than so many straight lines between its points."""
+BEHIND = 2.0
+"""A place lies behind the rim if the way through it costs this many times what one by it costs."""
+_AS_SHORT = 0.02
+"""Ways that are longer by less than this share are as short."""
 
 
 def lid_steps(mesh: TriMesh, steps: sp.csr_matrix, ball: Eyeball) -> sp.csr_matrix:
@@ -39,17 +40,13 @@ def lid_steps(mesh: TriMesh, steps: sp.csr_matrix, ball: Eyeball) -> sp.csr_matr
     return sp.csr_matrix((cost, (entries.row, entries.col)), shape=steps.shape)
 
 
-def shortest_way(steps: sp.csr_matrix, start: int, stop: int, likely: float = np.inf) -> IntArray:
+def shortest_way(steps: sp.csr_matrix, start: int, stop: int) -> IntArray:
     """Vertices of the shortest way from start to stop, both included; none if there is no way.
 
     steps : (V, V), the same both ways.
-    likely : a length within which it is looked for first, to save time.
     """
-    for limit in (likely, np.inf):
-        distance, before = dijkstra(steps, indices=start, return_predecessors=True, limit=limit)
-        if np.isfinite(distance[stop]):
-            break
-    else:
+    distance, before = dijkstra(steps, indices=start, return_predecessors=True)
+    if not np.isfinite(distance[stop]):
         return np.empty(0, np.int64)
     way = [stop]
     while before[way[-1]] >= 0:
@@ -59,7 +56,7 @@ def shortest_way(steps: sp.csr_matrix, start: int, stop: int, likely: float = np
 
 @dataclass(frozen=True, eq=False)
 class GuidedMargin:
-    """A margin and its guides: between two points that follow one another stand as many guides on every face.
+    """A margin and its guides: between two of its corners that follow one another stand as many guides on every face.
 
     Attributes
     ----------
@@ -73,18 +70,37 @@ class GuidedMargin:
     spread: sp.csr_matrix
 
 
-def guided_margin(mesh: TriMesh, steps: sp.csr_matrix, points: FeaturePoints, each: int) -> GuidedMargin | None:
-    """The margin through points, with guides at equal shares of the way between them; None where there is no way.
+def on_rim(mesh: TriMesh, steps: sp.csr_matrix, ends: tuple[int, int], near: int, reach: float) -> int:
+    """The vertex at a place on the rim of an opening, or, for a place behind it, the nearest one on the rim.
+
+    The way between the corners through a place behind the rim is much longer than one that goes by it.
 
     Parameters
     ----------
     steps : (V, V) graph of the steps allowed.
-    points : (P,) along the margin, from corner to corner.
-    each : guides from one point to the next, which has the first of its own.
+    ends : the corners. near : vertex at the place.
+    reach : how far from it the way may go by.
     """
-    ends = [(int(a), int(b)) for a, b in pairwise(points.holders)]
-    straight = [float(np.linalg.norm(mesh.vertices[b] - mesh.vertices[a])) for a, b in ends]
-    ways = [shortest_way(steps, a, b, _LIKELY * length) for (a, b), length in zip(ends, straight, strict=True)]
+    away = np.linalg.norm(mesh.vertices - mesh.vertices[near], axis=1)
+    total = dijkstra(steps, directed=False, indices=ends).sum(axis=0)
+    least = total[away <= reach].min()
+    if not np.isfinite(least) or total[near] <= BEHIND * least:
+        return near
+    total[away > reach] = np.inf
+    as_short = np.flatnonzero(total <= (1 + _AS_SHORT) * least)
+    return int(as_short[away[as_short].argmin()])
+
+
+def guided_margin(mesh: TriMesh, steps: sp.csr_matrix, corners: IntArray, each: int) -> GuidedMargin | None:
+    """The margin through vertices, with guides at equal shares of the way between them; None where there is no way.
+
+    Parameters
+    ----------
+    steps : (V, V) graph of the steps allowed.
+    corners : (P,) along the margin, from its one end to the other.
+    each : guides from one of them to the next, which has the first of its own.
+    """
+    ways = [shortest_way(steps, int(a), int(b)) for a, b in pairwise(corners)]
     if not all(len(way) for way in ways):
         return None
     shares = [_shares(mesh.vertices[way]) for way in ways]
