@@ -69,7 +69,9 @@ def _smoothing(mesh: TriMesh, steps: FloatArray) -> sp.csr_matrix:
     smoothing = sp.identity(len(mesh.vertices), format="csr")
     left = steps.copy()
     while left.any():
-        share = STEP * np.minimum(left, 1.0)
-        left -= np.minimum(left, 1.0)
-        smoothing = (smoothing + sp.diags(share) @ (mean @ smoothing - smoothing)).tocsr()
+        rows = np.flatnonzero(left)
+        share = np.minimum(left[rows], 1.0)
+        left[rows] -= share
+        to_rows = sp.csr_matrix((STEP * share, (rows, np.arange(len(rows)))), shape=(len(left), len(rows)))
+        smoothing = (smoothing + to_rows @ (mean[rows] @ smoothing - smoothing[rows])).tocsr()
     return smoothing

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse.csgraph import dijkstra
+from scipy.sparse.csgraph import csgraph_from_dense, dijkstra
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..mesh import TriMesh
@@ -26,15 +26,21 @@ class Sides:
         source_points, target_points : (P,) vertices at the points.
         extent : size of the region that holds the points, in source units.
         """
+        self._here = _nearest_point(target, target_points)[0]
+        self._there, away = _nearest_point(source, source_points)
         near = 0.25 * extent
         position = source.vertices[source_points]
         gap = np.linalg.norm(position[:, None] - position, axis=2)
-        along = dijkstra(source.graph, indices=source_points, limit=3 * near)[:, source_points]
-        opposite = (gap < near) & (along > 3 * gap) & (along > 0.3 * near)
+        apart = np.maximum(3 * gap, 0.3 * near)
+        # A way over the regions between two points is no shorter than the shortest: only what is far by it may be far.
+        opposite = (gap < near) & (_over_regions(source, self._there, away, len(source_points)) > apart)
+        rows = np.flatnonzero(opposite.any(axis=1))
+        if len(rows):
+            opposite[rows] &= (
+                dijkstra(source.graph, indices=source_points[rows], limit=3 * near)[:, source_points] > apart[rows]
+            )
         # A last row and column for vertices of no region, which are opposite to nothing.
         self._opposite = np.pad(opposite, ((0, 1), (0, 1)))
-        self._here = _nearest_point(target, target_points)
-        self._there = _nearest_point(source, source_points)
         self._faces, self._graph, self._extent = source.faces, source.graph, extent
         meeting = self._there[source.edges]
         self._touching = np.eye(len(source_points) + 1, dtype=bool)
@@ -62,10 +68,21 @@ class Sides:
         return result
 
 
-def _nearest_point(mesh: TriMesh, points: IntArray) -> IntArray:
-    """(V,) index of the point (P,) nearest along the surface, -1 where none can be reached."""
+def _nearest_point(mesh: TriMesh, points: IntArray) -> tuple[IntArray, FloatArray]:
+    """(V,) index of the point (P,) nearest along the surface, -1 where none can be reached, and how far (V,)."""
     distance, _, origin = dijkstra(mesh.graph, indices=points, min_only=True, return_predecessors=True)
     index = np.full(len(mesh.vertices), -1, np.int64)
     index[points] = np.arange(len(points))
     nearest: IntArray = np.where(np.isfinite(distance), index[np.where(np.isfinite(distance), origin, 0)], -1)
-    return nearest
+    return nearest, distance
+
+
+def _over_regions(mesh: TriMesh, nearest: IntArray, away: FloatArray, count: int) -> FloatArray:
+    """(P, P) lengths of ways over the surface from point to point, by the points whose regions lie between them."""
+    first, second = nearest[mesh.edges].T
+    meets = np.flatnonzero((first != second) & (first >= 0) & (second >= 0))
+    length = away[mesh.edges[meets]].sum(axis=1) + mesh.edge_lengths[meets]
+    steps = np.full((count, count), np.inf)
+    np.minimum.at(steps, (first[meets], second[meets]), length)
+    found: FloatArray = dijkstra(csgraph_from_dense(steps, null_value=np.inf), directed=False)
+    return found
