@@ -51,11 +51,16 @@ class SubdividedPair(Pair):
 def subdivided_pair(problem: Problem, levels: int, scheme: Scheme) -> Pair | None:
     """The pair of two faces whose skins have the same faces and come from one base by subdivision; else None.
 
+    None, too, where the artist made a base or the faces have no point in common.
+
     Parameters
     ----------
     levels : at most so many are undone.
     scheme : of the steps.
     """
+    common = common_names(problem.source.points, problem.target.points)
+    if problem.base is not None or not common:
+        return None
     source, target = problem.source.mesh, problem.target.mesh
     on_source, on_target = (_skin(face) for face in (problem.source, problem.target))
     faces = source.faces[on_source[source.faces[:, 0]]]
@@ -67,7 +72,6 @@ def subdivided_pair(problem: Problem, levels: int, scheme: Scheme) -> Pair | Non
     base_vertices = found.order[: found.base_count]
     names = tuple(f"vertex {vertex}" for vertex in base_vertices)
     points = FeaturePoints(names, np.repeat(base_vertices[:, None], 3, axis=1), np.tile([1.0, 0, 0], (len(names), 1)))
-    common = common_names(problem.source.points, problem.target.points)
     separations = [eye_separation(face.mesh, face.points.subset(common)) for face in (problem.source, problem.target)]
     return SubdividedPair(
         source,

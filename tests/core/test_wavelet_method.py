@@ -154,6 +154,15 @@ def test_a_turned_copy_of_a_subdivided_face_is_exact() -> None:
     assert relative(found, 7.0 * frames @ ROTATION.T + SHIFT, copy.mesh.vertices) < 1e-5
 
 
+def test_an_artists_own_base_goes_before_recognition() -> None:
+    source, other, _ = resampled(1)
+    base = base_mesh(source.mesh, source.points, other.mesh, other.points)
+    own = tuple((base.names[a], base.names[b], base.names[c]) for a, b, c in base.faces)
+    report = wavelet.fit(Problem(source, other, own), WaveletSettings(levels=1, base_points=4)).report
+    assert "subdivided" not in report
+    assert report["base"]["points"] == len(source.points)
+
+
 def test_the_papers_setting() -> None:
     """2964 vertices and 5760 triangles over a base of 90, with holes for mouth, eyes and nostrils; three levels."""
     faces, acting = min_jung.setting()

@@ -10,6 +10,7 @@ from facial_retarget_addon.core.levels.subdivision import Level, hierarchy, loop
 from facial_retarget_addon.core.wavelets.inner_products import REGULAR, inner_products
 from facial_retarget_addon.core.wavelets.lifting import Lift, Wavelets, integral_wavelets, wavelets
 
+from .test_curvature import surface
 from .test_subdivision import grid, papers_counts
 
 # fmt: off
@@ -147,3 +148,10 @@ def test_a_scheme_that_moves_old_vertices_is_refused() -> None:
 @pytest.fixture
 def rng() -> np.random.Generator:
     return np.random.default_rng(4)
+
+
+def test_a_mesh_that_is_regular_everywhere_needs_no_finer_levels() -> None:
+    torus, _ = surface(16, 16)
+    gram = inner_products(torus.faces, 256, [])[0]
+    np.testing.assert_allclose(gram.sum(axis=1), 1, atol=1e-12)
+    assert gram[0, 0] == REGULAR[0, 1]

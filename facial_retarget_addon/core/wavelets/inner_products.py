@@ -66,20 +66,33 @@ def inner_products(faces: IntArray, vertex_count: int, steps: Sequence[Level]) -
 def _finest(faces: IntArray, vertex_count: int) -> sp.csr_matrix:
     mesh = TriMesh(np.zeros((vertex_count, 3)), faces)
     neighbours = adjacency(mesh)
-    inside = _deep(mesh, neighbours)
+    inside = ~_widened(mesh.boundary_vertices | (np.diff(neighbours.indptr) != 6), neighbours)
     exact = _lattice(neighbours, inside)
-    near = _by_finer_levels(faces, vertex_count, np.flatnonzero(~inside))
+    near = _by_finer_levels(faces, ~inside, _widened(~inside, neighbours))
     return (exact + sp.diags(~inside * 1.0) @ exact.T @ sp.diags(inside * 1.0) + near).tocsr()
 
 
-def _by_finer_levels(faces: IntArray, vertex_count: int, some: IntArray) -> sp.csr_matrix:
-    """(V, V) inner products among some vertices, by functions that are piecewise linear two and one levels finer."""
-    one, two = hierarchy(faces, vertex_count, 2, butterfly)
-    first, rows = _columns(one, some)
-    second, finest = _columns(two, rows)
-    coarser, finer = _linear_products(one, 1, rows), second.T @ _linear_products(two, 2, finest) @ second
+def _widened(some: BoolArray, neighbours: sp.csr_matrix) -> BoolArray:
+    """(V,) true for some vertices and `_RINGS` rings around them."""
+    for _ in range(_RINGS):
+        some = some | (neighbours @ some.astype(np.float64) > 0)
+    return some
+
+
+def _by_finer_levels(faces: IntArray, some: BoolArray, around: BoolArray) -> sp.csr_matrix:
+    """(V, V) inner products among some vertices, by functions that are piecewise linear two and one levels finer.
+
+    around : (V,) what their functions depend on; the rest of the mesh is left away.
+    """
+    used, corners = np.unique(faces[around[faces].all(axis=1)], return_inverse=True)
+    rows = np.flatnonzero(some[used])
+    one, two = hierarchy(corners.reshape(-1, 3), len(used), 2, butterfly)
+    first, finer_rows = _columns(one, rows)
+    second, finest_rows = _columns(two, finer_rows)
+    coarser, finer = _linear_products(one, 1, finer_rows), second.T @ _linear_products(two, 2, finest_rows) @ second
     near = (first.T @ (finer + (finer - coarser) / 3) @ first).tocoo()
-    return sp.csr_matrix((near.data, (some[near.row], some[near.col])), shape=(vertex_count,) * 2)
+    vertices = used[rows]
+    return sp.csr_matrix((near.data, (vertices[near.row], vertices[near.col])), shape=(len(some),) * 2)
 
 
 def _columns(step: Level, some: IntArray) -> tuple[sp.csr_matrix, IntArray]:
@@ -96,15 +109,6 @@ def _linear_products(step: Level, levels: int, rows: IntArray) -> sp.csr_matrix:
     i, j = np.concatenate([a, b, c, a, b, c]), np.concatenate([b, c, a, a, b, c])
     half = sp.coo_matrix((np.full(len(i), twelfth), (i, j)), shape=(step.vertex_count,) * 2).tocsr()
     return (half + half.T)[rows][:, rows]
-
-
-def _deep(mesh: TriMesh, neighbours: sp.csr_matrix) -> BoolArray:
-    """(V,) true for vertices whose surroundings are regular for `_RINGS` rings."""
-    irregular = mesh.boundary_vertices | (np.diff(neighbours.indptr) != 6)
-    for _ in range(_RINGS):
-        irregular = irregular | (neighbours @ irregular.astype(np.float64) > 0)
-    deep: BoolArray = ~irregular
-    return deep
 
 
 def _lattice(neighbours: sp.csr_matrix, rows: BoolArray) -> sp.csr_matrix:
