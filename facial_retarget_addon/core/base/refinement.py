@@ -76,16 +76,26 @@ def _farthest_vertices(
 ) -> IntArray:
     """Up to `count` target vertices inside the base, each the farthest from all points before it."""
     inside = np.flatnonzero(inside_base(base, target, points, _FIT_FOR_A_POINT) & (correspondence.confidence > 0.5))
-    if count <= 0 or not len(inside):
+    return farthest_vertices(target.vertices, inside, points.positions(target.vertices), count)
+
+
+def farthest_vertices(vertices: FloatArray, candidates: IntArray, taken: FloatArray, count: int) -> IntArray:
+    """Up to `count` of the candidates, each the farthest from all places that are taken and from all before it.
+
+    Parameters
+    ----------
+    vertices : (V, 3). candidates : (n,) some of them. taken : (m, 3) places, at least one.
+    """
+    if count <= 0 or not len(candidates):
         return np.empty(0, np.int64)
-    places = target.vertices[inside]
-    gap = np.full(len(inside), np.inf)
-    for position in points.positions(target.vertices):
+    places = vertices[candidates]
+    gap = np.full(len(candidates), np.inf)
+    for position in taken:
         np.minimum(gap, _squared(places - position), out=gap)
     chosen: list[int] = []
-    for _ in range(min(count, len(inside))):
+    for _ in range(min(count, len(candidates))):
         best = int(np.argmax(gap))
-        chosen.append(int(inside[best]))
+        chosen.append(int(candidates[best]))
         np.minimum(gap, _squared(places - places[best]), out=gap)
     return np.array(chosen, np.int64)
 

@@ -33,6 +33,7 @@ from ..points import FeaturePoints, common_names
 from ..problem import Problem
 from ..rigid import fit_similarity
 from ..seams.lids import LidSeams, find_eye_margins
+from ..steering.base_places import denser_base
 from ..steering.learned import Steering, SteeringBase, learn
 from ..unfolding import Unfolding
 from .settings import MotionCloningSettings
@@ -213,7 +214,10 @@ def fit(problem: Problem, settings: MotionCloningSettings, progress: Progress = 
         scale = fit_similarity(points[0].positions(source.vertices), points[1].positions(target.vertices)).scale
         retargeter.fair(_lid_seams(problem, points, units), scale)
     progress(0.9, "learning from the examples")
-    retargeter.learn(SteeringBase(source, target, *points, *separations), settings.example_strength)
+    base = SteeringBase(source, target, *points, *separations)
+    if problem.source.examples and not published:
+        base = denser_base(base, found)
+    retargeter.learn(base, settings.example_strength)
     progress(1.0, "fitted")
     return retargeter
 

@@ -19,6 +19,7 @@ NEIGHBOURHOOD = 0.35  # standard deviation of the neighbourhood, in eye separati
 LOCALITY = 1.0  # multiquadric c, as a share of the mean distance between the examples
 SMOOTHING = 0.01  # how far the maps may miss an example, as a share of c
 RIDGE = 0.02  # cost of a weight in the non-negative fit, as a share of the examples' mean energy
+LEAST_ENERGY = 0.1  # energy, as a share of the strongest region's, that the ridge is made for at least
 SWEEPS = 40  # coordinate-descent sweeps of the non-negative fit
 
 
@@ -106,7 +107,9 @@ def fit_example_weights(base: FloatArray, examples: FloatArray, eye_separation: 
 
     gram = np.einsum("ij,mjc,njc->imn", gaussian, examples, examples, optimize=True)
     energy = np.einsum("imm->i", gram) / max(len(examples), 1)
-    gram = gram + (RIDGE * energy)[:, None, None] * np.eye(len(examples))
+    # Where the examples hardly move, a frame that moves must not be made of many times an example.
+    ridge = RIDGE * np.maximum(energy, LEAST_ENERGY * energy.max(initial=0.0))
+    gram = gram + ridge[:, None, None] * np.eye(len(examples))
     return ExampleWeights(gaussian, examples, locality, solve, at_rest, gram)
 
 
