@@ -96,7 +96,7 @@ class Unfolding:
             return
         acted = _SourceFrame(self._defects, frame)
         before, now = moved.astype(np.float64), moved.astype(np.float64)
-        bad = self._bad(now, acted, faces, edges)
+        bad = first = self._bad(now, acted, faces, edges)
         for done in range(ROUNDS):
             if not bad.any():
                 break
@@ -109,7 +109,7 @@ class Unfolding:
                 now[rows] = 0.5 * (now[rows] + mean @ now)
             around = (np.unique(incidence[rows].indices) for incidence in (self._faces_at, self._edges_at))
             bad = self._bad(now, acted, *around)
-        self._keep_far(before, now)
+        self._keep_in_vain(before, now, first, bad)
         moved[:] = now
 
     def _bad(self, displacement: FloatArray, acted: _SourceFrame, faces: IntArray, edges: IntArray) -> BoolArray:
@@ -140,8 +140,11 @@ class Unfolding:
         np.minimum.at(parting, mesh.face_edges[sided].ravel(), np.repeat(safe[sided], 3))
         return parting
 
-    def _keep_far(self, before: FloatArray, now: FloatArray) -> None:
-        """Take back, in place, what was done to patches that it moved too far."""
+    def _keep_in_vain(self, before: FloatArray, now: FloatArray, first: BoolArray, left: BoolArray) -> None:
+        """Take back, in place, what was done to patches that it moved too far, or mended nothing of.
+
+        first, left : (V,) vertices of what was turned or torn before and after.
+        """
         change = np.sqrt(np.square(now - before).sum(axis=1)) / self._edge
         touched = np.flatnonzero(change > 0)
         if not len(touched):
@@ -149,7 +152,8 @@ class Unfolding:
         count, patch = connected_components(self._target.graph[touched][:, touched], directed=False)
         farthest = np.zeros(count)
         np.maximum.at(farthest, patch, change[touched])
-        back = touched[(farthest > MOST_CHANGE)[patch]]
+        faults = [np.bincount(patch, bad[touched], count) for bad in (first, left)]
+        back = touched[((farthest > MOST_CHANGE) | (faults[1] >= faults[0]))[patch]]
         now[back] = before[back]
 
 
