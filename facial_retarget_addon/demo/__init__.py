@@ -71,7 +71,7 @@ def donor(vertices: int = 12_000) -> DemoFace:
 def _human(name: str, vertices: int, with_jaw: bool) -> DemoFace:
     fineness = np.sqrt(vertices / 42_000)
     columns, rows, rings = (round(count * fineness) for count in (180, 200, 14))
-    return build_face(name, ACTOR, ringed_layout(columns, rows, rings), HUMAN, {}, with_jaw=with_jaw)
+    return build_face(name, ACTOR, ringed_layout(columns, rows, rings), HUMAN, {}, with_jaw=with_jaw, named=with_jaw)
 
 
 def performance(face: DemoFace) -> FloatArray:
@@ -89,8 +89,8 @@ def targets() -> list[DemoFace]:
 
 
 def child() -> DemoFace:
-    """A light mesh of quads with a child's proportions: a third face to take motion from or to, with examples."""
-    return build_face("child", CHILD, ringed_layout(64, 72, 6), CHERUB, CHILD_MANNER, childlike)
+    """A light mesh of quads with a child's proportions and named parts: a third face to give motion or get it."""
+    return build_face("child", CHILD, ringed_layout(64, 72, 6), CHERUB, CHILD_MANNER, childlike, named=True)
 
 
 def warped_actor(rng: np.random.Generator, vertices: int = 40_000) -> DemoFace:

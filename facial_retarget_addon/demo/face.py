@@ -82,6 +82,7 @@ def build_face(
     manner: Mapping[str, float],
     warp: Warp = unwarped,
     with_jaw: bool = False,
+    named: bool = False,
 ) -> DemoFace:
     """Mesh a sculpture.
 
@@ -93,7 +94,8 @@ def build_face(
     palette : its colours.
     manner : action name without side -> factor on its contraction.
     warp : what all positions go through, for a face that no sculpture makes.
-    with_jaw : whether it has lower teeth and a tongue; its parts are then named.
+    with_jaw : whether it has lower teeth and a tongue.
+    named : whether its parts are named, as an artist may do.
     """
     layout, vertices = layout.pinned(np.array(list(POINTS.values())))
     acting = Acting(sculpture, layout.places, manner)
@@ -119,14 +121,14 @@ def build_face(
     mesh = TriMesh.from_polygons(positions, counts, corners)
     corner_weights = np.tile([1.0, 0.0, 0.0], (len(POINTS), 1))
     points = FeaturePoints(tuple(POINTS), np.repeat(vertices[:, None], 3, axis=1), corner_weights)
-    named = {part: held[:1] for part, held in rows.items()} if with_jaw else {}
+    names = {part: held[:1] for part, held in rows.items()} if named else {}
     face = DemoFace(
         name=name,
         counts=counts.astype(np.int64),
         corners=corners,
         uvs=np.concatenate([piece.uvs for piece in pieces]),
         colours=np.concatenate([piece.colours for piece in pieces]),
-        face=Face(mesh, points, named_parts=named),
+        face=Face(mesh, points, named_parts=names),
         places=layout.places,
         acting=acting,
         moving=tuple(moving),
