@@ -32,7 +32,7 @@ from ..wavelets.lifting import Wavelets, integral_wavelets, wavelets
 from ..wavelets.motion import RidingMotion, WaveletMotion
 from .settings import WaveletSettings
 
-_SMOOTHING = 5
+_SMOOTHING = 8
 """Rounds in which each base vertex's rotation takes the mean of those around it; the paper has none."""
 _REACH = 0.35
 """Eye separations over which base rotations spread to the vertices between and beyond them."""
