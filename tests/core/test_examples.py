@@ -4,7 +4,12 @@ import numpy as np
 import pytest
 from scipy.optimize import nnls
 
+from facial_retarget_addon import demo
+from facial_retarget_addon.core.base.regions import eye_separation
+from facial_retarget_addon.core.matching.correspondence import correspond
+from facial_retarget_addon.core.steering.base_places import REACH, WANTED, denser_base
 from facial_retarget_addon.core.steering.examples import fit_example_weights, non_negative_least_squares
+from facial_retarget_addon.core.steering.learned import SteeringBase
 from facial_retarget_addon.core.steering.residuals import ExamplePairs, ExampleRegions, spread_matrix
 
 
@@ -102,3 +107,34 @@ class TestResiduals:
         _, residuals = self.fit(base, moves, target, 0.5, trust=0.0)
         motion = rng.normal(size=(2, 500, 3)).astype(np.float32)
         np.testing.assert_allclose(residuals.steer(motion, moves[:2]), motion, atol=1e-5)
+
+
+def test_a_denser_base_has_places_between_the_points_that_belong_together() -> None:
+    source = demo.actor(vertices=4_000).face
+    target = demo.warped_actor(np.random.default_rng(3), vertices=3_000)
+    names = [name for name in source.points.names if name in target.face.points.names][:50]
+    points = source.points.subset(names), target.face.points.subset(names)
+    separations = eye_separation(source.mesh, source.points), eye_separation(target.face.mesh, target.face.points)
+    base = SteeringBase(source.mesh, target.face.mesh, *points, *separations)
+    denser = denser_base(base, correspond(source.mesh, points[0], target.face.mesh, points[1]))
+    assert len(denser.source_points) == len(denser.target_points) == WANTED
+    assert denser.source_points.names[: len(names)] == tuple(names)
+    there = denser.target_points.positions(target.face.mesh.vertices)[len(names) :]
+    known = points[1].positions(target.face.mesh.vertices)
+    gaps = np.linalg.norm(there[:, None] - known, axis=2).min(axis=1)
+    assert gaps.min() > 0
+    assert gaps.max() < REACH * separations[1]
+    # The warped actor is the actor through a known warp: its vertices know their places on him.
+    here = denser.source_points.positions(source.mesh.vertices)[len(names) :]
+    assert np.median(np.linalg.norm(target.warp(here) - there, axis=1)) < 0.05 * separations[1]
+
+
+def test_where_examples_hardly_move_weights_stay_small(base: np.ndarray) -> None:
+    """A frame that moves a region which no example does must not be many times an example there."""
+    shown = np.zeros((1, len(base), 3))
+    shown[0, :, 0] = np.exp(-8 * np.square(base - base[0]).sum(axis=1))
+    frame = np.zeros((1, len(base), 3))
+    far = np.linalg.norm(base - base[0], axis=1) > 1.2
+    frame[0, far, 0] = 1.0
+    weights = fit_example_weights(base, shown, 0.8).non_negative(frame)
+    assert weights.max() < 3
