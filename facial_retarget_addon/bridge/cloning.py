@@ -25,7 +25,7 @@ from .clones import Clones, Copying, write_clones
 from .donors import Donor, donor_steps
 from .head_shapes import plan_names
 from .heads import Head, head_parts, read_head
-from .key_sets import check_editable
+from .key_sets import check_targets
 from .raycast import available_caster
 from .settings import read_method_settings
 
@@ -58,7 +58,7 @@ def clone_steps(context: Context) -> Steps[Outcome]:
     donor = yield from part(donor_steps(task), 0.0, MAKING)
     names = wanted_names(donor.names, cloning)
     heads = [read_head(face) for face in faces]
-    check_heads(donor, heads)
+    check_targets(donor.things, [thing for head in heads for thing in head.things])
     works = [cloner(donor, head, names, cloning.method, settings, cloning) for head in heads]
     made = yield from part(computed(heads, works), MAKING, COMPUTING)
     yield MAKING + COMPUTING, "Writing"
@@ -146,20 +146,3 @@ def target_faces(context: Context) -> list[Object]:
             f"none of the {len(selected)} selected mesh objects beside the source has feature points, expected faces"
         )
     return sorted(faces, key=lambda face: face.name)
-
-
-def check_heads(donor: Donor, heads: Sequence[Head]) -> None:
-    """RetargetError if target objects cannot be written, or a mesh belongs to two objects: one would change both."""
-    for head in heads:
-        for thing in head.things:
-            check_editable(thing)
-    holders: dict[str, Object] = {}
-    for things in (donor.things, *(head.things for head in heads)):
-        for thing in things:
-            mesh = thing.data.name_full
-            if mesh in holders:
-                raise RetargetError(
-                    f"mesh {mesh!r} is that of object {holders[mesh].name!r} and of object {thing.name!r}, "
-                    "expected objects with a mesh of their own, each on one head"
-                )
-            holders[mesh] = thing

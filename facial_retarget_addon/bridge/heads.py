@@ -73,7 +73,7 @@ class Head:
 
     def owner(self, name: str) -> Object:
         """The first object that has a shape key of this name."""
-        return next(thing for thing in self.things if name in key_names(thing))
+        return next(thing for thing in self.things if find_key(thing, name) is not None)
 
     def displacements(self, names: Sequence[str], unmasked: Collection[str] = ()) -> FloatArray:
         """(E, V, 3) float32 what shape keys do at 1, in the head's coordinates; an object without the key is still.

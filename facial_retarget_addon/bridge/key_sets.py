@@ -41,6 +41,20 @@ def check_editable(thing: Object) -> None:
     check_relative(thing)
 
 
+def check_targets(sources: Collection[Object], targets: Collection[Object]) -> None:
+    """RetargetError if targets cannot be written, or one has its mesh in common: writing one would change the other."""
+    holders = {thing.data.name_full: thing for thing in sources}
+    for thing in targets:
+        check_editable(thing)
+        mesh = thing.data.name_full
+        if mesh in holders:
+            raise RetargetError(
+                f"mesh {mesh!r} is that of object {holders[mesh].name!r} and of object {thing.name!r}, "
+                "expected a target with a mesh of its own, on one head"
+            )
+        holders[mesh] = thing
+
+
 def check_relative(thing: Object) -> None:
     """RetargetError if an object's shape keys are absolute: they follow each other and cannot be mixed."""
     keys = thing.data.shape_keys

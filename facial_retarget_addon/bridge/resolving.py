@@ -21,9 +21,10 @@ from .background import Steps, part
 from .clone_report import write_report
 from .clone_wishes import Origin
 from .clones import Clones, fingerprint, write_shapes
-from .cloning import COMPUTING, MAKING, check_heads, computed, named_warnings, row_of, target_faces
+from .cloning import COMPUTING, MAKING, computed, named_warnings, row_of, target_faces
 from .donors import Donor, donor_steps
 from .heads import Head, read_head
+from .key_sets import check_targets
 from .raycast import available_caster
 from .settings import read_method_settings
 from .shape_keys import find_key
@@ -75,7 +76,7 @@ def resolve_steps(context: Context) -> Steps[Solved]:
     faces = target_faces(context)
     donor = yield from part(donor_steps(task), 0.0, MAKING)
     heads = [read_head(face) for face in faces]
-    check_heads(donor, heads)
+    check_targets(donor.things, [thing for head in heads for thing in head.things])
     lessons = [_lesson(donor, head) for head in heads]
     works = [solver(donor, lesson, cloning.method, settings, cloning.feather) for lesson in lessons]
     made = yield from part(computed(heads, works), MAKING, COMPUTING)

@@ -16,7 +16,8 @@ from ..files.pages.report import report_json, report_page
 from ..files.whole import written_whole
 from .background import Steps, in_thread, part
 from .bake import write_head_frames
-from .heads import read_head
+from .heads import head_parts, read_head
+from .key_sets import check_targets
 from .level_object import show_levels
 from .performance import read_frames
 from .settings import read_task_settings
@@ -38,6 +39,8 @@ def retarget_steps(context: Context) -> Steps[dict[str, Any]]:
     task = context.scene.facial_retarget
     method, settings = task.method, read_task_settings(task)
     problem = read_problem(context)
+    head = read_head(task.target)
+    check_targets((task.source, *head_parts(task.source)), head.things)
     frames = frame_range(context)
     source = yield from part(read_frames(context, task.source, frames), 0.0, READING)
 
@@ -47,7 +50,7 @@ def retarget_steps(context: Context) -> Steps[dict[str, Any]]:
     result = yield from part(in_thread(compute), READING, COMPUTING)
     yield READING + COMPUTING, "Writing"
     _write_report(task, problem, source, result)
-    write_head_frames(read_head(task.target), result.frames, frames.start)
+    write_head_frames(head, result.frames, frames.start)
     return result.report
 
 
