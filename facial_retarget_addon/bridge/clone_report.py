@@ -13,24 +13,34 @@ REPORT = "Cloned Shapes"
 """Name of the text."""
 NAMED = ("name", "with", "corrected", "largest_motion", "share_of_source")
 """What a row holds besides figures that are 0 where all is well."""
+OF_SOURCE, PERCENT = "source_", "_percent"
+"""How figures are named that say what the source itself shows, and those that are percents."""
+SLIGHT = 0.5
+"""Trouble below this is not worth a word."""
 
 
 def worst_first(rows: Mapping[str, Mapping[str, Any]]) -> list[str]:
-    """The names of rows, those with the most trouble first: the sum of their figures, each over its greatest."""
-    figures = {figure for row in rows.values() for figure in trouble(row)}
-    greatest = {figure: max(abs(trouble(row).get(figure, 0.0)) for row in rows.values()) or 1.0 for figure in figures}
-    total = {name: sum(abs(v) / greatest[figure] for figure, v in trouble(row).items()) for name, row in rows.items()}
-    return sorted(rows, key=lambda name: -total[name])
+    """The names of rows, those with the most trouble first: torn edges, turned triangles, percents of a gap."""
+    return sorted(rows, key=lambda name: -sum(trouble(rows[name]).values()))
 
 
 def trouble(row: Mapping[str, Any]) -> dict[str, float]:
-    """The figures of a row that are 0 where all is well."""
-    return {name: value for name, value in row.items() if name not in NAMED and value is not None}
+    """The figures of a row as far as they are worse than the source's own: 0 where all is well."""
+    figures = {name: value for name, value in row.items() if name not in NAMED and value is not None}
+    return {
+        name: max(float(value) - float(figures.get(OF_SOURCE + name, 0.0)), 0.0)
+        for name, value in figures.items()
+        if not name.startswith(OF_SOURCE)
+    }
 
 
 def figures_note(row: Mapping[str, Any]) -> str:
-    """A row's trouble in a few words, such as `3 torn edges, lip gap 0.2`."""
-    found = [f"{name.replace('_', ' ')} {value:.3g}" for name, value in trouble(row).items() if value]
+    """A row's trouble in a few words, such as `torn edges 3, lip gap +2 %`."""
+    found = []
+    for name, value in trouble(row).items():
+        label = name.removesuffix(PERCENT).replace("_", " ")
+        if value >= SLIGHT:
+            found.append(f"{label} +{value:.0f} %" if name.endswith(PERCENT) else f"{label} {value:.0f}")
     return ", ".join(found)
 
 

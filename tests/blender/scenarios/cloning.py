@@ -120,8 +120,12 @@ assert sorted(entry.name for entry in entries) == sorted(NAMES)
 report = json.loads(bpy.data.texts["Cloned Shapes"].as_string())
 rows = report["target"]["shapes"]
 assert [row["name"] for row in rows] == [entry.name for entry in entries]
-trouble = [row["torn_edges"] + row["flipped_triangles"] for row in rows]
-assert trouble[0] == max(trouble)
+trouble = part("bridge.clone_report").trouble
+sums = [sum(trouble(row).values()) for row in rows]
+assert sums == sorted(sums, reverse=True), sums
+bad = {"name": "joy", "torn_edges": 3, "lip_gap_percent": 30.0, "source_lip_gap_percent": 28.0, "lid_gap_percent": None}
+assert trouble(bad) == {"torn_edges": 3, "lip_gap_percent": 2}
+assert part("bridge.clone_report").figures_note(bad) == "torn edges 3, lip gap +2 %"
 
 # Existing keys are kept, replaced, or stand beside numbered ones.
 sculpted = key_shape(target, "joy") + np.float32(0.1)
