@@ -13,7 +13,6 @@ from .binding import Binding, apply_matrix
 from .levels.normal_mesh import NormalMesh
 from .rigid import Similarity
 from .source_reader import SourceReader
-from .steering.residuals import spread_matrix
 
 Motion = Callable[[FloatArray], FloatArray]
 """Source frames (F, Vs, 3) float32 to target displacements (F, V, 3) float32, in target units."""
@@ -151,12 +150,21 @@ def local_turns(
     # In single precision from the middle of the face: the weights are smooth, and there are millions of them.
     middle, unit = base.mean(axis=0), np.sqrt(2) * reach * separation
     here, there = ((part - middle) / unit for part in (base, vertices[counts]))
-    squared = np.square(here).sum(axis=1)[:, None] + np.square(there).sum(axis=1) - 2 * (here @ there.T)
-    near = np.exp(-squared.astype(np.float32)) * trust[counts]
+    near = _falling(here, there) * trust[counts]
     products = after[counts, :, None] * before[counts, None, :]
     at_base = _nearest_rotations((near @ products.reshape(-1, 9)).reshape(-1, 3, 3))
-    spread = spread_matrix(places, base, reach * separation)
-    return _nearest_rotations((spread @ at_base.reshape(-1, 9)).reshape(-1, 3, 3))
+    # All base vertices count at every place: nearest ones alone would leave a grain where their set changes.
+    at_places = _falling((places - middle) / unit, here)
+    blended = at_places @ at_base.reshape(-1, 9) / at_places.sum(axis=1, keepdims=True)
+    return _nearest_rotations(blended.reshape(-1, 3, 3))
+
+
+def _falling(places: FloatArray, others: FloatArray) -> FloatArray:
+    """(N, M) exp(-d²) of the distances from places (N, 3) to others (M, 3), over that of each place's nearest one."""
+    squared = np.square(places).sum(axis=1)[:, None] + np.square(others).sum(axis=1) - 2 * (places @ others.T)
+    squared -= squared.min(axis=1, keepdims=True)
+    falling: FloatArray = np.exp(-squared.astype(np.float32))
+    return falling
 
 
 def steady_turns(turns: FloatArray) -> FloatArray:
