@@ -95,7 +95,7 @@ def left_over(face: Face, positions: np.ndarray) -> float:
     """The lids' opening as a share of the neutral one, the mean of both eyes."""
     shares = []
     for eye in find_eye_margins(face.mesh, face.points).values():
-        neutral, now = eye.openings(face.mesh.vertices), eye.openings(positions)
+        neutral, now = eye.above.openings(face.mesh.vertices), eye.above.openings(positions)
         size = np.linalg.norm(neutral, axis=1)
         shares.append(np.einsum("gi,gi->g", now, neutral / np.maximum(size, 1e-300)[:, None]).sum() / size.sum())
     return float(np.mean(shares))

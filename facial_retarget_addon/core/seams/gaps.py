@@ -26,7 +26,9 @@ SHARED = 0.5
 
 @dataclass(frozen=True, eq=False)
 class _LidOpening:
-    """The opening of one eye: 100 in the neutral, 0 where the margins meet along their whole length."""
+    """The opening of one eye, across the line between its corners: 100 in the neutral, 0 where the margins meet along
+    their whole length.
+    """
 
     eye: EyeMargins
     directions: FloatArray
@@ -34,13 +36,13 @@ class _LidOpening:
 
     @classmethod
     def measured(cls, eye: EyeMargins, vertices: FloatArray) -> _LidOpening:
-        gaps = eye.openings(vertices)
+        gaps = eye.above.across(vertices)
         sizes = np.linalg.norm(gaps, axis=1)
         return cls(eye, gaps / np.maximum(sizes, 1e-300)[:, None], float(sizes.sum()))
 
     def percent(self, frames: FloatArray) -> FloatArray:
         """(F,) of frames (F, V, 3)."""
-        gaps = np.einsum("fgi,gi->fg", self.eye.openings(frames), self.directions)
+        gaps = np.einsum("fgi,gi->fg", self.eye.above.openings(frames), self.directions)
         percent: FloatArray = 100 * gaps.sum(axis=1) / max(self.whole, 1e-300)
         return percent
 

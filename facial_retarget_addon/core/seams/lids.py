@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import scipy.sparse as sp
@@ -17,7 +18,7 @@ from ..mesh import TriMesh
 from ..mpeg4.fdps import FDPS
 from ..mpeg4.head import head_axes
 from ..points import FeaturePoints
-from .margins import GuidedMargin, guided_margin, has_points, lid_steps, on_rim
+from .margins import GuidedMargin, guided_margin, has_points, lid_steps, on_rim, opposite
 
 GUIDES = 3
 """From a corner of the eye to the middle of a lid."""
@@ -37,25 +38,52 @@ _SLIGHT = 1e-3
 """Shares of a correction below this are left out."""
 
 
+class Guides(NamedTuple):
+    """The guides of one margin and the places of the other margin that they face; (G, V) csr each."""
+
+    own: sp.csr_matrix
+    facing: sp.csr_matrix
+
+    def openings(self, positions: FloatArray) -> FloatArray:
+        """(..., G, 3) from each place faced to the guide, for positions (V, 3) or (F, V, 3)."""
+        across = (self.own - self.facing).tocsr()
+        if positions.ndim == 2:
+            gaps: FloatArray = across @ positions
+            return gaps
+        return apply_matrix(across, positions)
+
+    def across(self, vertices: FloatArray) -> FloatArray:
+        """(G, 3) the openings of the neutral (V, 3), without what lies along the line between the eye's corners."""
+        margin = self.own @ vertices
+        line = unit_vectors(margin[-1:] - margin[:1])
+        gaps = self.openings(vertices)
+        across: FloatArray = gaps - (gaps @ line.T) * line
+        return across
+
+    def mean(self, matrices: FloatArray) -> FloatArray:
+        """(G, 3, 3) of matrices (V, 3, 3) at the vertices: half-way between a guide and the place that it faces."""
+        flat = matrices.reshape(-1, 9)
+        halfway: FloatArray = 0.5 * (self.own @ flat + self.facing @ flat).reshape(-1, 3, 3)
+        return halfway
+
+
 @dataclass(frozen=True, eq=False)
 class EyeMargins:
-    """Upper and lower margin of one eye, with guides opposite to one another."""
+    """Upper and lower margin of one eye, and what the guides of each face on the other."""
 
     upper: GuidedMargin
     lower: GuidedMargin
+    above: Guides
+    below: Guides
 
-    def openings(self, positions: FloatArray) -> FloatArray:
-        """(..., G, 3) from each guide of the lower margin to the one opposite, for positions (V, 3) or (F, V, 3)."""
-        if positions.ndim == 2:
-            gaps: FloatArray = self.upper.guides @ positions - self.lower.guides @ positions
-            return gaps
-        return apply_matrix((self.upper.guides - self.lower.guides).tocsr(), positions)
-
-    def mean(self, matrices: FloatArray) -> FloatArray:
-        """(G, 3, 3) of matrices (V, 3, 3) at the vertices: half-way between guides opposite to one another."""
-        flat = matrices.reshape(-1, 9)
-        halfway: FloatArray = 0.5 * (self.upper.guides @ flat + self.lower.guides @ flat).reshape(-1, 3, 3)
-        return halfway
+    @classmethod
+    def paired(cls, mesh: TriMesh, upper: GuidedMargin, lower: GuidedMargin) -> EyeMargins:
+        """Guides face the place of the other margin that lies as far along the line between the corners."""
+        above, below = (
+            Guides(own.guides, opposite(mesh, own.guides @ mesh.vertices, other.vertices))
+            for own, other in ((upper, lower), (lower, upper))
+        )
+        return cls(upper, lower, above, below)
 
 
 def find_eye_margins(mesh: TriMesh, points: FeaturePoints) -> dict[str, EyeMargins]:
@@ -82,7 +110,7 @@ def find_eye_margins(mesh: TriMesh, points: FeaturePoints) -> dict[str, EyeMargi
             middle = on_rim(mesh, around, (int(corners[0]), int(corners[1])), int(near), reach)
             margins.append(guided_margin(mesh, around, np.array([corners[0], middle, corners[1]]), GUIDES))
         if margins[0] is not None and margins[1] is not None:
-            found[side] = EyeMargins(margins[0], margins[1])
+            found[side] = EyeMargins.paired(mesh, margins[0], margins[1])
     return found
 
 
@@ -128,11 +156,10 @@ class LidSeams:
         read, carried, maps = [], [], []
         for side in self.sides:
             ours, theirs = source[side], target[side]
-            mapped = _lid_maps(ours, theirs, faces, measured, turns)
-            for own, other in ((ours.upper, theirs.upper), (ours.lower, theirs.lower)):
-                read.append(own.guides)
-                carried.append(other.guides)
-                maps.append(mapped)
+            for own, other in ((ours.above, theirs.above), (ours.below, theirs.below)):
+                read.append(own.own)
+                carried.append(other.own)
+                maps.append(_lid_maps(own, other, faces, measured, turns))
         self._read, self._carried = (_Rows(sp.vstack(rows).tocsr()) for rows in (read, carried))
         self._maps = np.concatenate(maps).astype(np.float32)
         spread = _spread(faces[1], [target[side] for side in self.sides], count)
@@ -149,7 +176,7 @@ class LidSeams:
 
 
 def _lid_maps(
-    ours: EyeMargins, theirs: EyeMargins, faces: tuple[TriMesh, TriMesh], measured: FloatArray, turns: FloatArray
+    ours: Guides, theirs: Guides, faces: tuple[TriMesh, TriMesh], measured: FloatArray, turns: FloatArray
 ) -> FloatArray:
     """(G, 3, 3) what a guide's displacement on the source becomes on the target.
 
@@ -157,7 +184,7 @@ def _lid_maps(
     and r the ratio of the target's opening to the source's, both across the line between the corners.
     """
     turn = theirs.mean(turns) @ ours.mean(measured)
-    before, after = (_across_the_corners(eye, mesh.vertices) for eye, mesh in zip((ours, theirs), faces, strict=True))
+    before, after = (lid.across(mesh.vertices) for lid, mesh in zip((ours, theirs), faces, strict=True))
     gaps = [np.linalg.norm(gap, axis=1) for gap in (np.einsum("gij,gj->gi", turn, before), after)]
     sizes = [gap + THIN * gap.max() for gap in gaps]
     ratio = np.clip(sizes[1] / np.maximum(sizes[0], 1e-300), LEAST, MOST)
@@ -165,15 +192,6 @@ def _lid_maps(
     stretch = np.eye(3) + (ratio - 1)[:, None, None] * opens[:, :, None] * opens[:, None, :]
     maps: FloatArray = turn @ stretch
     return maps
-
-
-def _across_the_corners(eye: EyeMargins, vertices: FloatArray) -> FloatArray:
-    """(G, 3) the openings, without what lies along the line between the eye's corners."""
-    margin = eye.upper.guides @ vertices
-    line = unit_vectors(margin[-1:] - margin[:1])
-    gaps = eye.openings(vertices)
-    across: FloatArray = gaps - (gaps @ line.T) * line
-    return across
 
 
 def _spread(mesh: TriMesh, eyes: list[EyeMargins], count: int) -> sp.csr_matrix:

@@ -115,6 +115,23 @@ def guided_margin(mesh: TriMesh, steps: sp.csr_matrix, corners: IntArray, each: 
     return GuidedMargin((guides @ to_mesh).tocsr(), vertices, _interpolation(along, stations, len(stations)))
 
 
+def opposite(mesh: TriMesh, guides: FloatArray, margin: IntArray) -> sp.csr_matrix:
+    """(G, V) places of a margin (n,) that lie as far along the line between the corners as guides (G, 3) do.
+
+    guides : of the other margin, from corner to corner. What doubles back along the line is passed over.
+    """
+    line = guides[-1] - guides[0]
+    length = max(float(line @ line), 1e-300)
+    wanted, along = ((places - guides[0]) @ line / length for places in (guides, mesh.vertices[margin]))
+    highest = np.maximum.accumulate(np.concatenate([[-np.inf], along[:-1]]))
+    kept = np.flatnonzero((along > highest) & (along >= 0) & (along <= 1))
+    kept = np.unique(np.concatenate([[0], kept[along[kept] < 1], [len(margin) - 1]]))
+    along[0], along[-1] = 0.0, 1.0
+    faced = _interpolation(np.clip(wanted, 0.0, 1.0), along[kept], len(kept))
+    place = sp.csr_matrix((np.ones(len(kept)), (np.arange(len(kept)), margin[kept])), (len(kept), len(mesh.vertices)))
+    return (faced @ place).tocsr()
+
+
 def _shares(places: FloatArray) -> FloatArray:
     """Share of the way (n,) at each place (n, 3) of a chain; 0 to 1, evenly for places that coincide."""
     passed = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(places, axis=0), axis=1))])
