@@ -91,8 +91,6 @@ class MotionCloningRetargeter:
         moved = self.plain(source.astype(np.float32))
         if self._steering is not None:
             moved = self._steering.steer(moved, source.astype(np.float32))
-        if self._unfolding is not None:
-            moved = self._unfolding.mend(moved, source)
         moved = self._parts.add_to(moved, source)
         moved += self._target
         return moved
@@ -107,7 +105,10 @@ class MotionCloningRetargeter:
         measured = (every @ self._read) * self._per_length[:, None]
         moved = _each_column(self._matrix, measured) @ self._turns.transpose(0, 2, 1)
         moved = np.ascontiguousarray(moved.transpose(1, 0, 2))
-        return moved if self._seams is None else self._seams.correct(moved, acted)
+        if self._seams is not None:
+            moved = self._seams.correct(moved, acted)
+        # What an artist's example folds is left as it is: examples are added afterwards.
+        return moved if self._unfolding is None else self._unfolding.mend(moved, source)
 
     def fair(self, seams: LidSeams, scale: float) -> None:
         """From now on smooth what a coarse source does, close lids as far as the source's, and mend what folds.
