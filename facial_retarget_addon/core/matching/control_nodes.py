@@ -46,8 +46,7 @@ def spread_nodes(mesh: TriMesh, spacing: FloatArray, candidates: IntArray, first
     # Normals count as well, so that surfaces that touch, such as two lips, get nodes on both sides.
     unit = 1 / spacing[candidates] ** 2
     place = np.concatenate([mesh.vertices, 0.5 * np.median(spacing) * mesh.vertex_normals], axis=1)[candidates]
-    # Single precision is enough to choose by, and halves the memory that is read for every choice.
-    place = (place - place.mean(axis=0)).astype(np.float32)
+    place -= place.mean(axis=0)
     square = np.einsum("vc,vc->v", place, place)
     row = {int(v): i for i, v in enumerate(candidates)}
     chosen = list(dict.fromkeys(row[int(v)] for v in first))

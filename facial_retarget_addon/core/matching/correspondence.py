@@ -8,7 +8,7 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.spatial.distance import cdist
 
-from ..arrays import BoolArray, FloatArray, IntArray, Progress, no_progress
+from ..arrays import BoolArray, FloatArray, IntArray, Progress, no_progress, unit_vectors
 from ..closest_point import Nearest, SurfaceFinder, closest_agreeing
 from ..errors import RetargetError
 from ..mesh import TriMesh
@@ -23,6 +23,7 @@ from .surface_fit import fit_surface
 _AGREEMENT = 0.2
 _REACH = 0.3
 _STIFFNESS = 0.01
+_LEAN = 1e-6
 _DECAY = 0.3
 """How far motion reaches past the source's surface, in extents of the points."""
 
@@ -99,7 +100,7 @@ def correspond(
     progress(0.0, "warping the target onto the source")
     similarity = fit_similarity(here, there)
     warp = fit_smooth_warp(similarity.apply(here), there, _STIFFNESS)
-    warped = target.with_vertices(warp.apply(similarity.apply(target.vertices)))
+    warped = target.with_vertices(_leaning(warp.apply(similarity.apply(target.vertices)), there))
     progress(0.1, "bending the target onto the source")
     held = target_points.matrix(len(target.vertices))
     bent = target.with_vertices(fit_surface(warped, active, held, there, finder, extent))
@@ -168,6 +169,18 @@ def predict_points(
     correspondence = correspond(mesh, known_points, template, template_points)
     vertices, weights = places_on_source(correspondence, mesh, template, wanted.vertices, wanted.weights)
     return known_points.joined(FeaturePoints(tuple(missing), vertices, weights))
+
+
+def _leaning(places: FloatArray, points: FloatArray) -> FloatArray:
+    """Places (V, 3) stretched by next to nothing along a direction that the order of the points (P, 3) gives.
+
+    Faces that mirror themselves have places that are as near to the one side as to the other: this decides between
+    them, wherever the face stands, instead of the rounding of a machine.
+    """
+    middle = points.mean(axis=0)
+    lean = unit_vectors((np.sin(np.arange(1, len(points) + 1)) @ (points - middle))[None])[0]
+    leaning: FloatArray = places + _LEAN * ((places - middle) @ lean)[:, None] * lean
+    return leaning
 
 
 def _face_component(mesh: TriMesh, points: FeaturePoints, what: str) -> BoolArray:
