@@ -111,6 +111,15 @@ class SurfaceFinder:
                 search.run(pieces, rest[own != octant], len(pieces.face))
         return search.result()
 
+    def on_faces(self, points: FloatArray, faces: IntArray) -> Nearest:
+        """Closest place of a face (N,) given for each point (N, 3); nothing for those of face -1."""
+        found = faces >= 0
+        corners = self._corners[np.maximum(faces, 0)]
+        weights = closest_on_triangles(points, corners) * found[:, None]
+        place = np.einsum("nk,nkc->nc", weights, corners)
+        distance = np.where(found, np.linalg.norm(points - place, axis=1), np.inf)
+        return Nearest(distance, faces, weights, place)
+
 
 def closest_agreeing(
     finder: SurfaceFinder,

@@ -5,12 +5,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from facial_retarget_addon import demo
 from facial_retarget_addon.core.errors import RetargetError
 from facial_retarget_addon.core.matching.correspondence import correspond, places_on_source, predict_points
 from facial_retarget_addon.core.matching.smooth_warp import fit_smooth_warp
 from facial_retarget_addon.core.matching.surface_fill import HarmonicFill
 from facial_retarget_addon.core.mesh import TriMesh
-from facial_retarget_addon.core.points import FeaturePoints
+from facial_retarget_addon.core.mpeg4.regions import OWN_PARTS
+from facial_retarget_addon.core.points import FeaturePoints, common_names
 from facial_retarget_addon.core.rigid import fit_similarity
 from facial_retarget_addon.files.points import read_points
 
@@ -358,3 +360,15 @@ def test_a_real_head_onto_itself(shared_data: Path) -> None:
     motion = archive["expr_delta"].astype(float)
     moved = found.matrix(mesh.faces, len(mesh.vertices)) @ motion[:, :, 0].T
     np.testing.assert_allclose(moved[skin], motion[:, skin, 0].T, atol=1e-6 * mesh.size)
+
+
+def test_rounding_does_not_decide_on_faces_that_mirror_themselves() -> None:
+    source, target = demo.actor(vertices=3_000).face, demo.targets()[1].face
+    names = [name for name in common_names(source.points, target.points) if name not in OWN_PARTS]
+    ours, theirs = source.points.subset(names), target.points.subset(names)
+    wanted = correspond(source.mesh, ours, target.mesh, theirs).warped
+    rounded = target.mesh.with_vertices(
+        target.mesh.vertices * (1 + 1e-15 * np.random.default_rng(0).normal(size=target.mesh.vertices.shape))
+    )
+    found = correspond(source.mesh, ours, rounded, theirs).warped
+    assert np.abs(found - wanted).max() < 1e-9 * source.mesh.size

@@ -60,8 +60,10 @@ def spread_nodes(mesh: TriMesh, spacing: FloatArray, candidates: IntArray, first
     return result
 
 
-def control_nodes(mesh: TriMesh, nodes: IntArray) -> ControlNodes:
+def control_nodes(mesh: TriMesh, nodes: IntArray, steps: sp.csr_matrix) -> ControlNodes:
     """Weights of given nodes (K,): moving least squares over the nodes that are near along the surface.
+
+    steps : (V, V) lengths of the mesh's edges, by which the nearest node of each vertex is told.
 
     References
     ----------
@@ -69,7 +71,7 @@ def control_nodes(mesh: TriMesh, nodes: IntArray) -> ControlNodes:
     neighbours).
     """
     count = len(nodes)
-    distance, _, origin = dijkstra(mesh.graph, indices=nodes, min_only=True, return_predecessors=True)
+    distance, _, origin = dijkstra(steps, indices=nodes, min_only=True, return_predecessors=True)
     owner = np.full(len(mesh.vertices), -1, np.int64)
     owner[nodes] = np.arange(count)
     reached = np.flatnonzero(np.isfinite(distance))

@@ -100,12 +100,13 @@ def correspond(
     progress(0.0, "warping the target onto the source")
     similarity = fit_similarity(here, there)
     warp = fit_smooth_warp(similarity.apply(here), there, _STIFFNESS)
-    warped = target.with_vertices(_leaning(warp.apply(similarity.apply(target.vertices)), there))
+    warped = target.with_vertices(warp.apply(similarity.apply(target.vertices)))
+    lean = _lean(warped.vertices, there)
     progress(0.1, "bending the target onto the source")
     held = target_points.matrix(len(target.vertices))
-    bent = target.with_vertices(fit_surface(warped, active, held, there, finder, extent))
+    bent = target.with_vertices(fit_surface(warped, active, held, there, finder, extent, lean))
     progress(0.6, "finding the places of the target's vertices on the source")
-    found, agrees = _places(finder, bent, active, extent)
+    found, agrees = _places(finder, bent, active, extent, lean)
     progress(0.8, "mending the map")
     sides = Sides(source, source_points.holders, target, target_points.holders, extent)
     crossed = _to_own_side(sides, source, bent, found, extent)
@@ -171,16 +172,16 @@ def predict_points(
     return known_points.joined(FeaturePoints(tuple(missing), vertices, weights))
 
 
-def _leaning(places: FloatArray, points: FloatArray) -> FloatArray:
-    """Places (V, 3) stretched by next to nothing along a direction that the order of the points (P, 3) gives.
+def _lean(places: FloatArray, points: FloatArray) -> FloatArray:
+    """(V, 3) next to nothing, by which places lean along a direction that the order of the points (P, 3) gives.
 
-    Faces that mirror themselves have places that are as near to the one side as to the other: this decides between
+    Faces that mirror themselves have places that are as near to the one side as to the other: leaning decides between
     them, wherever the face stands, instead of the rounding of a machine.
     """
     middle = points.mean(axis=0)
-    lean = unit_vectors((np.sin(np.arange(1, len(points) + 1)) @ (points - middle))[None])[0]
-    leaning: FloatArray = places + _LEAN * ((places - middle) @ lean)[:, None] * lean
-    return leaning
+    direction = unit_vectors((np.sin(np.arange(1, len(points) + 1)) @ (points - middle))[None])[0]
+    lean: FloatArray = _LEAN * ((places - middle) @ direction)[:, None] * direction
+    return lean
 
 
 def _face_component(mesh: TriMesh, points: FeaturePoints, what: str) -> BoolArray:
@@ -208,14 +209,18 @@ def _refuse_twins(points: FeaturePoints, vertex_count: int, what: str) -> None:
         )
 
 
-def _places(finder: SurfaceFinder, bent: TriMesh, active: IntArray, extent: float) -> tuple[Nearest, BoolArray]:
+def _places(
+    finder: SurfaceFinder, bent: TriMesh, active: IntArray, extent: float, lean: FloatArray
+) -> tuple[Nearest, BoolArray]:
     """Places of the vertices, face -1 for those that are not active; (V,) true where the normals agree."""
-    points, normals = bent.vertices[active], bent.vertex_normals[active]
-    nearest = finder.closest(points, normals, _AGREEMENT, _REACH * extent)
+    points, normals, leaning = bent.vertices[active], bent.vertex_normals[active], (bent.vertices + lean)[active]
+    nearest = finder.on_faces(points, finder.closest(leaning, normals, _AGREEMENT, _REACH * extent).face)
     lost = nearest.face < 0
     count = len(bent.vertices)
     places = Nearest(np.full(count, np.inf), np.full(count, -1, np.int64), np.zeros((count, 3)), bent.vertices.copy())
-    for whole, some, guess in zip(places, nearest, finder.closest(points[lost]), strict=True):
+    for whole, some, guess in zip(
+        places, nearest, finder.on_faces(points[lost], finder.closest(leaning[lost]).face), strict=True
+    ):
         some[lost] = guess
         whole[active] = some
     agrees = np.zeros(count, bool)

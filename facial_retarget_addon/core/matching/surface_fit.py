@@ -30,6 +30,7 @@ def fit_surface(
     images: FloatArray,
     finder: SurfaceFinder,
     extent: float,
+    lean: FloatArray,
 ) -> FloatArray:
     """Positions (V, 3) of a mesh bent onto a surface.
 
@@ -44,6 +45,7 @@ def fit_surface(
     images : (P, 3) where the points belong.
     finder : finds places on the other surface.
     extent : size of the region that holds the points; places farther away than 0.3 of it are not followed.
+    lean : (V, 3) next to nothing: decides what is as near to one side as to the other.
 
     References
     ----------
@@ -54,8 +56,9 @@ def fit_surface(
     spacing = np.full(len(mesh.vertices), 0.5 * extent)
     spacing[active] = np.clip(near.reshape(len(active), -1)[:, -1], 0.08 * extent, 0.5 * extent)
     first = np.asarray(points.argmax(axis=1), np.int64).ravel()
-    samples = spread_nodes(mesh, spacing, active, first, _SAMPLES)
-    nodes = control_nodes(mesh, samples[:_NODES])
+    leaning = mesh.with_vertices(mesh.vertices + lean)
+    samples = spread_nodes(leaning, spacing, active, first, _SAMPLES)
+    nodes = control_nodes(mesh, samples[:_NODES], leaning.graph)
     bending = (nodes.bending.T @ nodes.bending).toarray() * (len(samples) / len(nodes.vertices))
     held = (points @ nodes.weights).toarray()
     given = _POINT_WEIGHT * held.T
@@ -66,7 +69,8 @@ def fit_surface(
     position = mesh.vertices
     for stiffness in _STIFFNESS:
         normals = mesh.with_vertices(position).vertex_normals[samples]
-        found = finder.closest(position[samples], normals, _AGREEMENT, _REACH * extent)
+        near = finder.closest((position + lean)[samples], normals, _AGREEMENT, _REACH * extent)
+        found = finder.on_faces(position[samples], near.face)
         hit = found.face >= 0
         typical = max(float(np.median(found.distance[hit])) if hit.any() else 0.0, 1e-3 * extent)
         trust = np.zeros(len(samples))
