@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from bpy.types import Depsgraph, Object
 
-from ..core.arrays import FloatArray, IntArray
+from ..core.arrays import BoolArray, FloatArray, IntArray
 from ..core.errors import RetargetError
 from ..core.mesh import TriMesh
-from ..core.parts.kinds import NAMED_KINDS, NamedParts
+from ..core.parts.kinds import NAMED_KINDS, NamedParts, skin_components
 from ..core.points import FeaturePoints
 from ..core.problem import Face
 from ..files.mesh_file import MeshFile
@@ -124,12 +124,14 @@ def read_head(face: Object, neutral: FloatArray | None = None) -> Head:
         )
         files.append(read_surface(thing, places, bool(np.linalg.det(matrix[:3, :3]) < 0)))
     file = _joined(files, starts)
+    points = _points(things, starts)
+    skin = np.isin(file.mesh.components, skin_components(file.mesh, points))
     return Head(
         things,
         starts,
         np.stack([matrix[:3, :3] for matrix in matrices]),
         file,
-        Face(file.mesh, _points(things, starts), named_parts=_named_parts(things, starts)),
+        Face(file.mesh, points, named_parts=_named_parts(things, starts, skin)),
         tuple(part.thing for part in face.facial_retarget.parts if part.role == BY_PLACE and part.thing in things),
     )
 
@@ -203,8 +205,11 @@ def _joined(files: Sequence[MeshFile], starts: IntArray) -> MeshFile:
     return MeshFile(mesh, counts, corners, np.concatenate(uvs) if len(uvs) == len(files) else None)
 
 
-def _named_parts(things: Sequence[Object], starts: IntArray) -> dict[str, IntArray]:
-    """What the artist calls a part -> vertices (n,): objects by their roles, others by vertex groups of such a name."""
+def _named_parts(things: Sequence[Object], starts: IntArray, skin: BoolArray) -> dict[str, IntArray]:
+    """What the artist calls a part -> vertices (n,): objects by their roles, others by vertex groups of such a name.
+
+    skin : (V,) the face's skin; a group that reaches it is something else, such as a bone's weights.
+    """
     roles = {part.thing: part.role for part in things[0].facial_retarget.parts if part.role != BY_PLACE}
     named: dict[str, list[IntArray]] = {}
     for thing, first, last in zip(things, starts, starts[1:], strict=False):
@@ -212,9 +217,9 @@ def _named_parts(things: Sequence[Object], starts: IntArray) -> dict[str, IntArr
             named.setdefault(roles[thing], []).append(np.arange(first, last))
             continue
         for name in (name for name in NAMED_KINDS if name in thing.vertex_groups):
-            held = np.flatnonzero(group_weights(thing, name) > 0)
-            if len(held):
-                named.setdefault(name, []).append(first + held)
+            held = first + np.flatnonzero(group_weights(thing, name) > 0)
+            if len(held) and not skin[held].any():
+                named.setdefault(name, []).append(held)
     return {name: np.concatenate(held) for name, held in named.items()}
 
 

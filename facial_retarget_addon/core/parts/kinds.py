@@ -53,6 +53,13 @@ def eyeball_name(side: str) -> str:
     return f"{side} eyeball"
 
 
+def skin_components(mesh: TriMesh, points: FeaturePoints) -> list[int]:
+    """The components that hold points of the skin: those that do not lie on eyes, teeth or tongue."""
+    on_skin = points.subset([name for name in points.names if name not in OWN_PARTS])
+    components: list[int] = np.unique(mesh.components[on_skin.holders]).tolist()
+    return components
+
+
 def named_faults(mesh: TriMesh, points: FeaturePoints, named: NamedParts) -> list[str]:
     """Parts that nobody knows, on vertices that do not exist, on the skin, or under two names: one clause for each.
 
@@ -62,8 +69,7 @@ def named_faults(mesh: TriMesh, points: FeaturePoints, named: NamedParts) -> lis
     """
     count, labels = len(mesh.vertices), mesh.components
     found: list[str] = []
-    on_skin = points.subset([name for name in points.names if name not in OWN_PARTS])
-    holds = dict.fromkeys(labels[on_skin.holders].tolist(), "the skin")
+    holds = dict.fromkeys(skin_components(mesh, points), "the skin")
     for name, held in named.items():
         vertices = np.asarray(held)
         if name not in NAMED_KINDS:
