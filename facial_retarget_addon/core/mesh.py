@@ -221,6 +221,14 @@ class TriMesh:
         return (half + half.T).tocsr()
 
     @cached_property
+    def neighbours_mean(self) -> sp.csr_matrix:
+        """(V, V) mean of each vertex's neighbours, near ones counting more; no row for a vertex without edges."""
+        nearness = self.graph.copy()
+        nearness.data = 1 / np.maximum(nearness.data, 1e-3 * self.edge_lengths.mean())
+        total = np.asarray(nearness.sum(axis=1)).ravel()
+        return (sp.diags(1 / np.maximum(total, 1e-300)) @ nearness).tocsr()
+
+    @cached_property
     def boundary_edges(self) -> IntArray:
         """(B, 2) directed boundary edges, in the direction of their face."""
         single = self.edge_face_count == 1

@@ -61,9 +61,7 @@ class Unfolding:
         self._defects = Defects(source, target, counterpart)
         self._edge = np.maximum(target.vertex_edge_length, 1e-12 * max(target.size, 1e-300))
         self._sided = target.face_areas > FLAT * target.face_areas.mean()
-        graph = target.graph.copy()
-        graph.data = 1 / np.maximum(graph.data, 1e-3 * target.edge_lengths.mean())
-        self._mean = (sp.diags(1 / np.maximum(np.asarray(graph.sum(axis=1)).ravel(), 1e-300)) @ graph).tocsr()
+        self._mean = target.neighbours_mean
         self._rest = target.vertices.astype(np.float32)
         self._faces_at, self._edges_at = (_incidence(part, len(self._rest)) for part in (target.faces, target.edges))
         self._faces_of = _incidence(target.face_edges, len(target.edges))

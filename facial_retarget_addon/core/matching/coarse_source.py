@@ -63,9 +63,7 @@ def _coarser(source_edge: FloatArray, target_edge: FloatArray) -> FloatArray:
 
 def _smoothing(mesh: TriMesh, steps: FloatArray) -> sp.csr_matrix:
     """(V, V) means with the neighbours, near ones counting more, as many steps (V,) at each vertex."""
-    graph = mesh.graph.copy()
-    graph.data = 1 / np.maximum(graph.data, 1e-3 * mesh.edge_lengths.mean())
-    mean = (sp.diags(1 / np.maximum(np.asarray(graph.sum(axis=1)).ravel(), 1e-300)) @ graph).tocsr()
+    mean = mesh.neighbours_mean
     smoothing = sp.identity(len(mesh.vertices), format="csr")
     left = steps.copy()
     while left.any():
