@@ -113,6 +113,8 @@ def test_the_built_in_actor_gives_its_shapes_to_a_head(name: str, folder: Path, 
     assert moved["mouthPucker"][left, 0] < -0.02 * width < 0.02 * width < moved["mouthPucker"][right, 0]
     assert moved["browInnerUp"][brow, 1] > 0.02 * width
     if name == "makehuman_dev":
+        # The actor's mouth is an opening, this head's a bag behind it: no edge of it spans both lips' motion.
+        assert not any(row["torn_edges"] or row["flipped_triangles"] for row in report["shapes"])
         with np.load(shared_data / f"{name}.npz") as data:
             tongue = data["vert_part"] == list(data["part_names"]).index("tongue")
         lip = before[names.index("2.3"), 2]

@@ -70,7 +70,8 @@ def correspond(
 
     The target is moved by a similarity, warped smoothly through the points and bent onto the source; then each vertex
     takes the closest place where the normals agree. Places that would tear or fold the target, that lie on the other
-    lip or lid, or past the source's border, are not believed.
+    lip or lid, past the source's border, or at an edge that would lie across an opening of the source, are not
+    believed.
 
     Parameters
     ----------
@@ -110,10 +111,13 @@ def correspond(
     progress(0.8, "mending the map")
     sides = Sides(source, source_points.holders, target, target_points.holders, extent)
     crossed = _to_own_side(sides, source, bent, found, extent)
+    own = target_face[target.edges].all(axis=1)
+    next_to = source.faces[found.face, found.weights.argmax(axis=1)]
+    bridged = sides.bridged(target.edges[own], next_to, similarity.scale * target.edge_lengths[own])
     past_border = _on_border(source, found) & (found.distance > 0.05 * extent)
     far = past_border | (found.distance > _REACH * extent)
     decay = np.where(far, target.vertex_edge_length / (_DECAY * extent / similarity.scale) ** 2, 0.0)
-    sure = (agrees & ~past_border & ~crossed) | ~target_face
+    sure = (agrees & ~past_border & ~crossed & ~bridged) | ~target_face
     sure = believable(target, bent, similarity.scale, found.point, sure) & target_face
     confidence = np.where(sure, 1 / (1 + (found.distance / (0.1 * extent)) ** 2), 0.0)
     labels = target.components

@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
+import scipy.sparse as sp
 from scipy.sparse.csgraph import csgraph_from_dense, dijkstra
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..mesh import TriMesh
+
+FAR = 4.0
+"""Places at the ends of an edge are apart if the way along the source is this many times as long as the edge."""
+_BLOCK = 64
 
 
 class Sides:
@@ -52,6 +57,29 @@ class Sides:
         crossed: BoolArray = self._opposite[self._here, self._there[place_vertices]]
         return crossed
 
+    def bridged(self, edges: IntArray, place_vertices: IntArray, lengths: FloatArray) -> BoolArray:
+        """(Vt,) true at the ends of target edges (E, 2) that lie across an opening that the source has there: their
+        places, next to the source vertices given (Vt,), are opposite and far apart along the source.
+
+        If one end alone lies on a side that is neither its own nor its neighbour's, the other is not to blame.
+
+        Parameters
+        ----------
+        lengths : (E,) of the edges, in source units.
+        """
+        places = place_vertices[edges]
+        opposite = self._opposite[self._there[places[:, 0]], self._there[places[:, 1]]]
+        edges, places, lengths = edges[opposite], places[opposite], lengths[opposite]
+        ends = np.zeros(len(place_vertices), bool)
+        if len(edges):
+            far = _farther(self._graph, places, FAR * lengths)
+            own, beside = (
+                self._opposite[self._here[ends_of], self._there[places]] for ends_of in (edges, edges[:, ::-1])
+            )
+            astray = own | beside
+            ends[edges[far[:, None] & (astray | ~astray[:, ::-1])]] = True
+        return ends
+
     def groups(self, vertices: IntArray) -> list[tuple[IntArray, IntArray, FloatArray]]:
         """For target vertices (N,) in groups: their indices, the source faces around the group on its own side, and
         how deep each source vertex lies in regions opposite to the group, (Vs,), infinite beyond 0.12 of the extent.
@@ -86,3 +114,15 @@ def _over_regions(mesh: TriMesh, nearest: IntArray, away: FloatArray, count: int
     np.minimum.at(steps, (first[meets], second[meets]), length)
     found: FloatArray = dijkstra(csgraph_from_dense(steps, null_value=np.inf), directed=False)
     return found
+
+
+def _farther(graph: sp.csr_matrix, pairs: IntArray, lengths: FloatArray) -> BoolArray:
+    """(N,) whether the way over a graph between two vertices (N, 2) is longer than given (N,)."""
+    starts, start = np.unique(pairs[:, 0], return_inverse=True)
+    way = np.full(len(pairs), np.inf)
+    for first in range(0, len(starts), _BLOCK):
+        found = dijkstra(graph, indices=starts[first : first + _BLOCK], limit=float(lengths.max()))
+        here = (start >= first) & (start < first + _BLOCK)
+        way[here] = found[start[here] - first, pairs[here, 1]]
+    farther: BoolArray = way > lengths
+    return farther
