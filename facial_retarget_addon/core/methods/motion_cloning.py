@@ -31,7 +31,7 @@ from ..parts.carried_parts import CarriedParts, carried_parts
 from ..parts.report import still_components
 from ..points import FeaturePoints, common_names
 from ..problem import Problem
-from ..rigid import fit_similarity
+from ..rigid import Similarity, fit_similarity
 from ..seams.lids import LidSeams, find_eye_margins
 from ..steering.base_places import denser_base
 from ..steering.learned import Steering, SteeringBase, learn
@@ -201,19 +201,19 @@ def fit(problem: Problem, settings: MotionCloningSettings, progress: Progress = 
     else:
         found = correspond(source, points[0], target, points[1], progress_part(progress, 0.0, 0.7))
         matrix = found.matrix(source.faces, len(source.vertices))
+        across = fit_similarity(points[0].positions(source.vertices), points[1].positions(target.vertices))
     progress(0.7, "preparing the motion")
     if published or settings.motion != "local":
         units = _regional_units(problem, names, points, smooth=not published)
     else:
-        units = _head_units(problem, points)
+        units = _head_units(across, len(target.vertices))
     if settings.motion != "compliant":
         turned = _local_turns(problem, matrix, units.rotation, points[1].positions(target.vertices), separations[1])
         units = units._replace(turns=(turned if published else steady_turns(turned)) @ units.turns)
     parts = carried_parts(problem.source, problem.target, np.zeros(len(target.vertices), bool))
     retargeter = MotionCloningRetargeter(problem, matrix, units, parts)
     if not published and settings.motion != "compliant":
-        scale = fit_similarity(points[0].positions(source.vertices), points[1].positions(target.vertices)).scale
-        retargeter.fair(_lid_seams(problem, points, units), scale)
+        retargeter.fair(_lid_seams(problem, points, units), across.scale)
     progress(0.9, "learning from the examples")
     base = SteeringBase(source, target, *points, *separations)
     if problem.source.examples and not published:
@@ -239,12 +239,12 @@ def _measured_heads(problem: Problem, names: Sequence[str]) -> list[tuple[FloatA
     return heads
 
 
-def _head_units(problem: Problem, points: tuple[FeaturePoints, FeaturePoints]) -> Units:
-    """One length for the whole head: the source's own, and the scale between both heads."""
-    faces = (problem.source, problem.target)
-    here, there = (part.positions(face.mesh.vertices) for part, face in zip(points, faces, strict=True))
-    across = fit_similarity(here, there)
-    turns = np.broadcast_to(across.scale * across.rotation, (len(problem.target.mesh.vertices), 3, 3))
+def _head_units(across: Similarity, count: int) -> Units:
+    """One length for the whole head: the source's own, and the scale between both heads.
+
+    count : of the target's vertices.
+    """
+    turns = np.broadcast_to(across.scale * across.rotation, (count, 3, 3))
     return Units(np.eye(3), np.ones((1, 3)), turns, across.rotation, {"scale": across.scale})
 
 

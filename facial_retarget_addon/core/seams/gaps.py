@@ -10,7 +10,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..points import FeaturePoints
 from ..problem import Face, Problem
-from .lids import EyeMargins, find_eye_margins
+from .lids import EyeMargins, FewRows, find_eye_margins
 from .margins import has_points
 
 LIPS = (("2.2", "2.3"), ("2.6", "2.8"), ("2.7", "2.9"))
@@ -30,19 +30,20 @@ class _LidOpening:
     their whole length.
     """
 
-    eye: EyeMargins
+    gaps: FewRows
     directions: FloatArray
     whole: float
 
     @classmethod
     def measured(cls, eye: EyeMargins, vertices: FloatArray) -> _LidOpening:
-        gaps = eye.above.across(vertices)
-        sizes = np.linalg.norm(gaps, axis=1)
-        return cls(eye, gaps / np.maximum(sizes, 1e-300)[:, None], float(sizes.sum()))
+        neutral = eye.above.across(vertices)
+        sizes = np.linalg.norm(neutral, axis=1)
+        directions = neutral / np.maximum(sizes, 1e-300)[:, None]
+        return cls(FewRows(eye.above.parting), directions, float(sizes.sum()))
 
     def percent(self, frames: FloatArray) -> FloatArray:
         """(F,) of frames (F, V, 3)."""
-        gaps = np.einsum("fgi,gi->fg", self.eye.above.openings(frames), self.directions)
+        gaps = np.einsum("fgi,gi->fg", self.gaps(frames), self.directions)
         percent: FloatArray = 100 * gaps.sum(axis=1) / max(self.whole, 1e-300)
         return percent
 

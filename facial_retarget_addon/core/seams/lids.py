@@ -44,13 +44,15 @@ class Guides(NamedTuple):
     own: sp.csr_matrix
     facing: sp.csr_matrix
 
+    @property
+    def parting(self) -> sp.csr_matrix:
+        """(G, V) takes positions to the vectors from the places faced to the guides."""
+        return (self.own - self.facing).tocsr()
+
     def openings(self, positions: FloatArray) -> FloatArray:
-        """(..., G, 3) from each place faced to the guide, for positions (V, 3) or (F, V, 3)."""
-        across = (self.own - self.facing).tocsr()
-        if positions.ndim == 2:
-            gaps: FloatArray = across @ positions
-            return gaps
-        return apply_matrix(across, positions)
+        """(G, 3) from each place faced to the guide, for positions (V, 3)."""
+        gaps: FloatArray = self.parting @ positions
+        return gaps
 
     def across(self, vertices: FloatArray) -> FloatArray:
         """(G, 3) the openings of the neutral (V, 3), without what lies along the line between the eye's corners."""
@@ -106,15 +108,15 @@ def find_eye_margins(mesh: TriMesh, points: FeaturePoints) -> dict[str, EyeMargi
         corners, middles = known.subset([outer, inner]).holders, known.subset([upper, lower]).holders
         reach = PAST * float(np.linalg.norm(mesh.vertices[middles[0]] - mesh.vertices[middles[1]]))
         margins = []
-        for near in middles:
-            middle = on_rim(mesh, around, (int(corners[0]), int(corners[1])), int(near), reach)
+        for place in middles:
+            middle = on_rim(mesh, around, (int(corners[0]), int(corners[1])), int(place), reach)
             margins.append(guided_margin(mesh, around, np.array([corners[0], middle, corners[1]]), GUIDES))
         if margins[0] is not None and margins[1] is not None:
             found[side] = EyeMargins.paired(mesh, margins[0], margins[1])
     return found
 
 
-class _Rows:
+class FewRows:
     """A matrix with few rows, which looks at the few vertices alone that it reads."""
 
     def __init__(self, matrix: sp.csr_matrix) -> None:
@@ -160,7 +162,7 @@ class LidSeams:
                 read.append(own.own)
                 carried.append(other.own)
                 maps.append(_lid_maps(own, other, faces, measured, turns))
-        self._read, self._carried = (_Rows(sp.vstack(rows).tocsr()) for rows in (read, carried))
+        self._read, self._carried = (FewRows(sp.vstack(rows).tocsr()) for rows in (read, carried))
         self._maps = np.concatenate(maps).astype(np.float32)
         spread = _spread(faces[1], [target[side] for side in self.sides], count)
         self._reached = np.flatnonzero(spread.getnnz(axis=1))
