@@ -1,9 +1,9 @@
 """Facial Retarget, a Blender extension. Enabling it loads neither SciPy nor Embree: operators do when they run."""
 
 from . import operators, panels
-from .facial_retarget_addon import properties
+from .facial_retarget_addon import properties, viewport
 
-PARTS = (properties, operators, panels)
+PARTS = (properties, operators, viewport, panels)
 
 
 def register() -> None:

@@ -18,6 +18,10 @@ ROOMS = {
         {"numpy", "bpy", "mathutils", "bpy_extras"},
         {"core", "files", "bridge", "fap_controls", "properties", "demo"},
     ),
+    "viewport": (
+        {"numpy", "bpy", "mathutils", "bpy_extras", "gpu", "gpu_extras", "blf"},
+        {"core", "bridge", "properties", "viewport"},
+    ),
 }
 """Room -> the packages from outside it may import, and the rooms it may import."""
 
