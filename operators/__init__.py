@@ -4,9 +4,12 @@ import bpy
 
 from . import (
     add_actor,
+    add_faces,
     add_point,
+    choose_face,
     clone_shapes,
     create_examples,
+    export_gltf,
     fap_controls,
     head_parts,
     jobs,
@@ -22,6 +25,8 @@ from . import (
 )
 
 CLASSES = (
+    choose_face.FACIAL_RETARGET_OT_choose_face,
+    add_faces.FACIAL_RETARGET_OT_add_faces,
     points_files.FACIAL_RETARGET_OT_load_points,
     points_files.FACIAL_RETARGET_OT_save_points,
     add_point.FACIAL_RETARGET_OT_add_point,
@@ -34,6 +39,7 @@ CLASSES = (
     list_examples.FACIAL_RETARGET_OT_remove_example,
     retarget.FACIAL_RETARGET_OT_retarget,
     show_levels.FACIAL_RETARGET_OT_show_levels,
+    export_gltf.FACIAL_RETARGET_OT_export_gltf,
     add_actor.FACIAL_RETARGET_OT_add_actor,
     clone_shapes.FACIAL_RETARGET_OT_clone_shapes,
     clone_shapes.FACIAL_RETARGET_OT_find_corrected,

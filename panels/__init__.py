@@ -2,9 +2,23 @@
 
 import bpy
 
-from . import cloning, examples, faces, faps, feature_points, head_parts, job, method, motion
+from . import (
+    bake_export,
+    cloning,
+    examples,
+    faces,
+    faps,
+    feature_points,
+    head_parts,
+    method,
+    more,
+    motion,
+    next_step,
+    report,
+)
 
 CLASSES = (
+    next_step.FACIAL_RETARGET_PT_next,
     faces.FACIAL_RETARGET_PT_faces,
     feature_points.FACIAL_RETARGET_PT_points,
     head_parts.FACIAL_RETARGET_UL_parts,
@@ -12,11 +26,14 @@ CLASSES = (
     examples.FACIAL_RETARGET_PT_examples,
     method.FACIAL_RETARGET_PT_retarget,
     method.FACIAL_RETARGET_PT_settings,
+    bake_export.FACIAL_RETARGET_PT_export,
+    bake_export.FACIAL_RETARGET_PT_job,
+    report.FACIAL_RETARGET_PT_report,
+    more.FACIAL_RETARGET_PT_more,
     cloning.FACIAL_RETARGET_UL_cloned,
     cloning.FACIAL_RETARGET_PT_cloning,
     cloning.FACIAL_RETARGET_PT_clone_settings,
     cloning.FACIAL_RETARGET_PT_cloned,
-    job.FACIAL_RETARGET_PT_job,
     motion.FACIAL_RETARGET_PT_motion,
     faps.FACIAL_RETARGET_PT_faps,
 )

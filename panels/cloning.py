@@ -22,6 +22,8 @@ class FACIAL_RETARGET_PT_cloning(RetargetTab, Panel):
     """What to clone, onto what, and the button."""
 
     bl_label = "Clone Shape Keys"
+    bl_parent_id = "FACIAL_RETARGET_PT_more"
+    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: Context) -> None:
         """Draw the panel."""

@@ -2,13 +2,16 @@
 
 from bpy.types import Context, Panel
 
-from .tab import RetargetTab
+from .tab import Step
 
 
-class FACIAL_RETARGET_PT_examples(RetargetTab, Panel):
+class FACIAL_RETARGET_PT_examples(Step, Panel):
     """Shape keys that both faces have and that show the same expression."""
 
-    bl_label = "Examples"
+    bl_label = "3. Examples"
+    bl_order = 3
+    bl_options = {"DEFAULT_CLOSED"}
+    step = "EXAMPLES"
 
     def draw(self, context: Context) -> None:
         """Draw the panel."""

@@ -2,13 +2,15 @@
 
 from bpy.types import Context, Panel
 
-from .tab import RetargetTab
+from .tab import Step
 
 
-class FACIAL_RETARGET_PT_faces(RetargetTab, Panel):
-    """Source, target and the performance's frames."""
+class FACIAL_RETARGET_PT_faces(Step, Panel):
+    """Source and target, and how the source looks at rest."""
 
-    bl_label = "Faces"
+    bl_label = "1. Faces"
+    bl_order = 1
+    step = "FACES"
 
     def draw(self, context: Context) -> None:
         """Draw the panel."""
@@ -20,8 +22,3 @@ class FACIAL_RETARGET_PT_faces(RetargetTab, Panel):
         if task.source_neutral == "FRAME":
             layout.prop(task, "neutral_frame", text="At")
         layout.prop(task, "target")
-        layout.prop(task, "use_scene_range")
-        if not task.use_scene_range:
-            column = layout.column(align=True)
-            column.prop(task, "frame_start", text="Frames")
-            column.prop(task, "frame_end", text="to")

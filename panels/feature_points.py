@@ -2,13 +2,15 @@
 
 from bpy.types import Context, Panel
 
-from .tab import RetargetTab
+from .tab import Step
 
 
-class FACIAL_RETARGET_PT_points(RetargetTab, Panel):
+class FACIAL_RETARGET_PT_points(Step, Panel):
     """Feature points of the active object."""
 
-    bl_label = "Feature Points"
+    bl_label = "2. Feature Points"
+    bl_order = 2
+    step = "POINTS"
 
     def draw(self, context: Context) -> None:
         """Draw the panel."""

@@ -1,14 +1,16 @@
-"""The method, its settings, and the button."""
+"""The method, its settings, the frames, and the button."""
 
 from bpy.types import Context, Panel
 
-from .tab import RetargetTab
+from .tab import RetargetTab, Step
 
 
-class FACIAL_RETARGET_PT_retarget(RetargetTab, Panel):
+class FACIAL_RETARGET_PT_retarget(Step, Panel):
     """Retarget and bake."""
 
-    bl_label = "Retarget"
+    bl_label = "4. Retarget"
+    bl_order = 4
+    step = "RETARGET"
 
     def draw(self, context: Context) -> None:
         """Draw the panel."""
@@ -16,10 +18,14 @@ class FACIAL_RETARGET_PT_retarget(RetargetTab, Panel):
         layout.use_property_split, layout.use_property_decorate = True, False
         task = context.scene.facial_retarget
         layout.prop(task, "method")
-        layout.prop(task, "report")
-        layout.prop(task, "page")
-        layout.operator("facial_retarget.retarget", icon="PLAY")
-        layout.operator("facial_retarget.show_levels")
+        layout.prop(task, "use_scene_range")
+        if not task.use_scene_range:
+            column = layout.column(align=True)
+            column.prop(task, "frame_start", text="Frames")
+            column.prop(task, "frame_end", text="to")
+        button = layout.row()
+        button.scale_y = 1.5
+        button.operator("facial_retarget.retarget", icon="PLAY")
 
 
 class FACIAL_RETARGET_PT_settings(RetargetTab, Panel):
@@ -37,3 +43,4 @@ class FACIAL_RETARGET_PT_settings(RetargetTab, Panel):
         settings = getattr(task, task.method)
         for name in settings.__annotations__:
             layout.prop(settings, name)
+        layout.operator("facial_retarget.show_levels")

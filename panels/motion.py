@@ -9,6 +9,7 @@ class FACIAL_RETARGET_PT_motion(RetargetTab, Panel):
     """Shapes, and motion in and out."""
 
     bl_label = "MPEG-4 Face"
+    bl_parent_id = "FACIAL_RETARGET_PT_more"
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: Context) -> None:

@@ -1,4 +1,17 @@
-"""Where the panels stand."""
+"""Where the panels stand, and what the steps of the work have in common."""
+
+from textwrap import wrap
+
+from bpy.app.translations import pgettext_iface
+from bpy.types import Context, UILayout
+
+from ..facial_retarget_addon import guide
+
+ICONS = {"DONE": "CHECKMARK", "NOW": "RADIOBUT_ON", "OPEN": "RADIOBUT_OFF"}
+"""How far a step is -> the icon in its header."""
+
+LETTER = 7.0
+"""Pixels that a letter takes on average, at a scale of 1."""
 
 
 class RetargetTab:
@@ -7,3 +20,27 @@ class RetargetTab:
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
     bl_category = "Retarget"
+
+
+class Step(RetargetTab):
+    """A panel that is one of `guide.STEPS`: its header shows how far the step is."""
+
+    step = ""
+
+    def draw_header(self, context: Context) -> None:
+        """Draw the icon before the title."""
+        self.layout.label(text="", icon=ICONS[guide.state(context, self.step)])
+
+
+def draw_text(layout: UILayout, context: Context, text: str, icon: str = "NONE") -> None:
+    """A text that is translated already, in as many lines as the sidebar's width asks for."""
+    scale = context.preferences.system.ui_scale
+    letters = int(context.region.width / scale / LETTER) - 8
+    column = layout.column(align=True)
+    for row, line in enumerate(wrap(text, max(letters, 16))):
+        column.label(text=line, icon=icon if row == 0 else "BLANK1", translate=False)
+
+
+def filled(text: str, **fields: object) -> str:
+    """A text of the interface in the artist's language, with its fields filled in."""
+    return pgettext_iface(text).format(**fields)

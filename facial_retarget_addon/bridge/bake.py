@@ -9,6 +9,7 @@ from bpy.types import Action, Object
 
 from ..core.arrays import FloatArray
 from ..core.errors import RetargetError
+from ..guide import BAKED_KEY
 from .curves import ensure_curves, find_curves, remove_curves, write_curve
 from .heads import Head
 from .meshes import from_face_space
@@ -20,7 +21,7 @@ STILL = 1e-6
 
 def key_name(frame: int) -> str:
     """Name of the shape key of a frame."""
-    return f"frame_{frame:04d}"
+    return BAKED_KEY.format(frame)
 
 
 def write_frames(thing: Object, frames: FloatArray, first: int) -> None:

@@ -15,7 +15,7 @@ from scipy.sparse.csgraph import connected_components
 
 from .arrays import BoolArray, FloatArray, IntArray
 from .errors import RetargetError
-from .methods.settings import LevelSettings, Settings
+from .methods.settings import LEAST_POINTS, LevelSettings, Settings, least_points
 from .mpeg4.regions import OWN_PARTS
 from .parts.kinds import named_faults
 from .parts.lacking import lacking_parts
@@ -23,10 +23,6 @@ from .points import FeaturePoints, common_names
 from .problem import Face, Problem
 from .rigid import fit_rigid
 
-LEAST_POINTS = 30
-"""Common feature points from which a base mesh can be made."""
-FEWEST_POINTS = 8
-"""Common feature points from which a method without a base mesh can work."""
 BAD_SHARE = 0.01
 """Bad faces of the skin that a method survives."""
 NO_AREA = 1e-12
@@ -57,7 +53,7 @@ def faults(problem: Problem, frames: FloatArray | None, settings: Settings) -> l
             *_stray_points(side, face),
             *(f"{side}: {fault}" for fault in named_faults(face.mesh, face.points, face.named_parts)),
         ]
-    found += _missing_points(problem, LEAST_POINTS if isinstance(settings, LevelSettings) else FEWEST_POINTS)
+    found += _missing_points(problem, least_points(type(settings)))
     found += _example_faults(problem)
     if isinstance(settings, LevelSettings):
         found += _level_faults(problem, settings)

@@ -136,6 +136,16 @@ SETTINGS: dict[str, type[Settings]] = {
 LEVELED = tuple(name for name, settings in SETTINGS.items() if issubclass(settings, LevelSettings))
 """Methods whose motion is made of levels."""
 
+LEAST_POINTS = 30
+"""Common feature points from which a base mesh can be made."""
+FEWEST_POINTS = 8
+"""Common feature points from which a method without a base mesh can work."""
+
+
+def least_points(settings: type[Settings]) -> int:
+    """Feature points that both faces must have in common for the method of these settings."""
+    return LEAST_POINTS if issubclass(settings, LevelSettings) else FEWEST_POINTS
+
 
 def read_settings(method: str, values: dict[str, Any], where: str = "[settings]") -> Settings:
     """Settings of a method from plain values, every one checked.

@@ -33,10 +33,24 @@ class Recorder:
         return self, self
 
 
+class InSidebar:
+    """Stands for the context of a panel: in background there is neither a region nor a scale."""
+
+    region = SimpleNamespace(width=260)
+    preferences = SimpleNamespace(system=SimpleNamespace(ui_scale=1.0))
+
+    def __getattr__(self, name: str) -> object:
+        """Everything else is Blender's."""
+        return getattr(bpy.context, name)
+
+
 def draw_all() -> None:
     """Draw all panels and all lists."""
     for panel in panels:
-        panel.draw(SimpleNamespace(layout=Recorder()), bpy.context)
+        shown = SimpleNamespace(layout=Recorder(), step=getattr(panel, "step", ""))
+        for draw in ("draw_header", "draw"):
+            if draw in dir(panel):
+                getattr(panel, draw)(shown, InSidebar())
     face = bpy.data.objects["target"].facial_retarget
     for kind, items in (("parts", face.parts), ("cloned", face.cloned)):
         for item in items:
@@ -50,6 +64,10 @@ panels = [kind for kind in bpy.types.Panel.__subclasses__() if kind.__module__.s
 assert len(panels) > 10, panels
 task = bpy.context.scene.facial_retarget
 task.source, task.target = donor_pair()
+tops = sorted((panel for panel in panels if "bl_parent_id" not in dir(panel)), key=lambda panel: panel.bl_order)
+titles = [panel.bl_label for panel in tops]
+steps = ["1. Faces", "2. Feature Points", "3. Examples", "4. Retarget", "5. Bake and Export", "6. Report"]
+assert titles == ["Next", *steps, "More"], titles
 for active in (None, task.source, task.target):
     bpy.context.view_layer.objects.active = active
     draw_all()

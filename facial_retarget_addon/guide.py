@@ -1,0 +1,145 @@
+"""What the artist does next, and how far each step is: read off the scene at every redraw, without bpy and NumPy."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from .core.methods.settings import FEWEST_POINTS, SETTINGS, least_points
+
+if TYPE_CHECKING:
+    from bpy.types import Context, Object, PropertyGroup
+
+STEPS = ("FACES", "POINTS", "EXAMPLES", "RETARGET", "EXPORT", "REPORT")
+"""The steps of the work, in their order."""
+
+BAKED_KEY = "frame_{:04d}"
+"""Name of the shape key that a bake makes for a scene frame."""
+
+
+@dataclass(frozen=True)
+class Advice:
+    """What to do next.
+
+    Attributes
+    ----------
+    step : the one of `STEPS` that is at work.
+    text : one line with {fields}, to be translated before they are filled in.
+    fields : what fills them.
+    operator : bl_idname of the button that does it; "" where there is none.
+    options : the operator's properties.
+    """
+
+    step: str
+    text: str
+    fields: Mapping[str, Any] = field(default_factory=dict)
+    operator: str = ""
+    options: Mapping[str, Any] = field(default_factory=dict)
+
+
+def advice(context: Context) -> Advice:
+    """The one thing to do next for the scene's task."""
+    task = context.scene.facial_retarget
+    return _face_advice(context, task) or _point_advice(task) or _work_advice(context, task)
+
+
+def state(context: Context, step: str) -> str:
+    """How far a step is: DONE, NOW for the one that is at work, or OPEN."""
+    task = context.scene.facial_retarget
+    done = {
+        "FACES": _face_advice(context, task) is None,
+        "POINTS": _both(task) and _point_advice(task) is None,
+        "EXAMPLES": len(task.examples) > 0,
+        "RETARGET": _both(task) and is_baked(task.target, first_frame(context)),
+    }
+    if done.get(step):
+        return "DONE"
+    return "NOW" if advice(context).step == step else "OPEN"
+
+
+def first_frame(context: Context) -> int:
+    """The first scene frame that the task retargets."""
+    task = context.scene.facial_retarget
+    return (context.scene if task.use_scene_range else task).frame_start
+
+
+def is_baked(thing: Object, frame: int) -> bool:
+    """Whether a bake has made a shape key for a scene frame on an object."""
+    keys = thing.data.shape_keys
+    return keys is not None and BAKED_KEY.format(frame) in keys.key_blocks
+
+
+def wanted_points(task: PropertyGroup) -> int:
+    """Feature points that both faces must have in common: few where the artist's own base mesh says which."""
+    return FEWEST_POINTS if task.base is not None else least_points(SETTINGS[task.method])
+
+
+def _both(task: PropertyGroup) -> bool:
+    return task.source is not None and task.target is not None and task.source != task.target
+
+
+def _face_advice(context: Context, task: PropertyGroup) -> Advice | None:
+    if task.source is None and task.target is None and not any(_is_mesh(thing) for thing in context.scene.objects):
+        return Advice("FACES", "Import two faces, or try the built-in ones", operator="facial_retarget.add_faces")
+    for role, text in (("source", "Choose the face that moves"), ("target", "Choose the face that shall move")):
+        thing = getattr(task, role)
+        if thing is None:
+            return Advice("FACES", text, operator="facial_retarget.choose_face", options={"role": role.upper()})
+        if thing.name not in context.scene.objects:
+            return Advice("FACES", "{face} is not in this scene: choose another face", {"face": thing.name})
+    if task.source == task.target:
+        return Advice("FACES", "Source and target are one object: choose another target")
+    if not task.source.visible_get():
+        return Advice("FACES", "Unhide {face}: Blender moves nothing hidden", {"face": task.source.name})
+    if _surely_still(task.source):
+        return Advice("FACES", "{face} does not move: animate it, or choose another source", {"face": task.source.name})
+    return None
+
+
+def _is_mesh(thing: Object) -> bool:
+    return thing.type == "MESH"
+
+
+def _surely_still(thing: Object) -> bool:
+    """Whether nothing on an object can move it: no animation, driver, modifier or parent, no part of its head."""
+    animated = (thing, thing.data, thing.data.shape_keys)
+    return (
+        not any(data is not None and data.animation_data is not None for data in animated)
+        and not len(thing.modifiers)
+        and thing.parent is None
+        and not len(thing.facial_retarget.parts)
+    )
+
+
+def _point_advice(task: PropertyGroup) -> Advice | None:
+    wanted = wanted_points(task)
+    names = []
+    for thing in (task.source, task.target):
+        names.append(_point_names(thing))
+        missing = wanted - len(names[-1])
+        if missing > 0:
+            text = "Place {count} more points on {face}" if missing > 1 else "Place one more point on {face}"
+            return Advice("POINTS", text, {"count": missing, "face": thing.name})
+    common = len(names[0] & names[1])
+    if common < wanted:
+        text = "Only {count} points have the same names on both faces: {wanted} must"
+        return Advice("POINTS", text, {"count": common, "wanted": wanted})
+    return None
+
+
+def _point_names(thing: Object) -> set[str]:
+    """Names of the points on a face and on the parts of its head."""
+    things = [thing, *(part.thing for part in thing.facial_retarget.parts if part.thing is not None)]
+    return {point.name for one in things for point in one.facial_retarget.points}
+
+
+def _work_advice(context: Context, task: PropertyGroup) -> Advice:
+    if context.mode != "OBJECT":
+        return Advice("RETARGET", "Go back to Object Mode", operator="object.mode_set", options={"mode": "OBJECT"})
+    if not is_baked(task.target, first_frame(context)):
+        text = "Press Retarget" if len(task.examples) else "Examples are optional: press Retarget"
+        return Advice("RETARGET", text, operator="facial_retarget.retarget")
+    return Advice(
+        "EXPORT", "Play it: then export it, or correct it and retarget again", operator="screen.animation_play"
+    )
