@@ -34,8 +34,21 @@ def _is_mesh(_: PropertyGroup, candidate: Object) -> bool:
 class FACIAL_RETARGET_PG_feature_point(PropertyGroup):
     """A named place on the object's surface: three vertices and their weights. `name` is inherited."""
 
-    vertices: IntVectorProperty(name="Vertices", size=3, min=0)
-    weights: FloatVectorProperty(name="Weights", size=3, default=(1.0, 0.0, 0.0), precision=4)
+    vertices: IntVectorProperty(name="Vertices", size=3, min=0, description="The vertices that hold the point")
+    weights: FloatVectorProperty(
+        name="Weights", size=3, default=(1.0, 0.0, 0.0), precision=4, description="How much of each vertex"
+    )
+
+
+class FACIAL_RETARGET_PG_point_name(PropertyGroup):
+    """The name of a feature point that has no place. `name` is inherited."""
+
+
+POINT_SET_ITEMS = [
+    ("MINIMAL", "Minimal", "15 points: the least from which a face can be driven"),
+    ("FMC", "MPEG-4", "48 points of the MPEG-4 standard: all that motion cloning and FAPs need on the skin"),
+    ("DENSE", "Dense", "124 points: those of MPEG-4 and more between them, for the hierarchical method's base mesh"),
+]
 
 
 PART_ROLES = (
@@ -77,8 +90,20 @@ class FACIAL_RETARGET_PG_cloned_key(PropertyGroup):
 class FACIAL_RETARGET_PG_face(PropertyGroup):
     """What an object knows as a face."""
 
-    points: CollectionProperty(type=FACIAL_RETARGET_PG_feature_point)
-    active_point: IntProperty(name="Active feature point")
+    points: CollectionProperty(type=FACIAL_RETARGET_PG_feature_point, description="Feature points that are placed")
+    active_point: IntProperty(name="Active feature point", description="The feature point that is chosen in the list")
+    proposals: CollectionProperty(
+        type=FACIAL_RETARGET_PG_feature_point, description="Feature points that are predicted, and not placed"
+    )
+    point_set: EnumProperty(
+        name="Set",
+        items=POINT_SET_ITEMS,
+        default="FMC",
+        description="Which feature points the face shall have",
+    )
+    skipped: CollectionProperty(
+        type=FACIAL_RETARGET_PG_point_name, description="Feature points of the set that this face shall not have"
+    )
     parts: CollectionProperty(type=FACIAL_RETARGET_PG_part)
     active_part: IntProperty(name="Active part")
     cloned: CollectionProperty(type=FACIAL_RETARGET_PG_cloned_key)
@@ -222,6 +247,7 @@ for _method, _group in SETTINGS_GROUPS.items():
 
 CLASSES = (
     FACIAL_RETARGET_PG_feature_point,
+    FACIAL_RETARGET_PG_point_name,
     FACIAL_RETARGET_PG_part,
     FACIAL_RETARGET_PG_origin,
     FACIAL_RETARGET_PG_cloned_key,

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
-from bpy.types import Object
+from bpy.types import Object, PropertyGroup, bpy_prop_collection
 
 from ..core.arrays import FloatArray, IntArray
 from ..core.closest_point import SurfaceFinder
@@ -19,7 +21,15 @@ def read_points(thing: Object) -> FeaturePoints:
     ------
     RetargetError : if a name appears twice, a vertex is not there, or weights do not add up to anything.
     """
-    stored = thing.facial_retarget.points
+    return _read(thing, thing.facial_retarget.points)
+
+
+def read_proposals(thing: Object) -> FeaturePoints:
+    """The proposed points of an object; RetargetError as for `read_points`."""
+    return _read(thing, thing.facial_retarget.proposals)
+
+
+def _read(thing: Object, stored: bpy_prop_collection) -> FeaturePoints:
     names = tuple(point.name for point in stored)
     vertices = np.array([point.vertices[:] for point in stored], np.int64).reshape(-1, 3)
     weights = np.array([point.weights[:] for point in stored], np.float64).reshape(-1, 3)
@@ -37,16 +47,75 @@ def read_points(thing: Object) -> FeaturePoints:
 
 
 def write_points(thing: Object, points: FeaturePoints) -> None:
-    """Replace the feature points of an object."""
-    stored = thing.facial_retarget.points
-    stored.clear()
+    """Replace the feature points of an object; what was proposed or skipped of these names no longer is."""
+    face = thing.facial_retarget
+    face.points.clear()
     for name, vertices, weights in zip(points.names, points.vertices, points.weights, strict=True):
-        _append(thing, name, vertices, weights)
+        _append(face.points, name, vertices, weights)
+        _drop(face.proposals, name)
+        _drop(face.skipped, name)
+
+
+def write_proposals(thing: Object, proposals: FeaturePoints) -> None:
+    """Replace the proposed points of an object; names that are placed are left out."""
+    face = thing.facial_retarget
+    placed = set(face.points.keys())
+    face.proposals.clear()
+    for name, vertices, weights in zip(proposals.names, proposals.vertices, proposals.weights, strict=True):
+        if name not in placed:
+            _append(face.proposals, name, vertices, weights)
+
+
+def place_point(thing: Object, name: str, vertices: Sequence[int], weights: Sequence[float]) -> None:
+    """Add a feature point, or move the one of this name, and make it the active one.
+
+    What was proposed or skipped of this name no longer is.
+
+    Parameters
+    ----------
+    vertices : (3,) that hold it.
+    weights : (3,) of these, adding up to 1.
+
+    Raises
+    ------
+    RetargetError : if the name is empty.
+    """
+    face = thing.facial_retarget
+    if not name:
+        raise RetargetError("the new feature point has no name, expected an FDP number or a free name")
+    row = face.points.find(name)
+    if row < 0:
+        _append(face.points, name, vertices, weights)
+        row = len(face.points) - 1
+    else:
+        _put(face.points[row], vertices, weights)
+    _drop(face.proposals, name)
+    _drop(face.skipped, name)
+    face.active_point = row
+
+
+def remove_point(thing: Object, name: str) -> None:
+    """Remove a feature point; RetargetError if there is none of this name."""
+    face = thing.facial_retarget
+    row = face.points.find(name)
+    if row < 0:
+        raise RetargetError(f"object {thing.name!r} has no feature point {name!r} to remove")
+    face.points.remove(row)
+    if face.active_point >= row:
+        face.active_point = max(face.active_point - 1, 0)
+
+
+def skip_point(thing: Object, name: str) -> None:
+    """Note that a face shall do without a point: it is no longer proposed, and its turn does not come."""
+    face = thing.facial_retarget
+    _drop(face.proposals, name)
+    if name not in face.skipped:
+        face.skipped.add().name = name
 
 
 def add_point_at_vertex(thing: Object, name: str, vertex: int) -> None:
     """Add a feature point on a vertex; RetargetError if the name is taken."""
-    _append_new(thing, name, np.array([vertex] * 3), np.array([1.0, 0.0, 0.0]))
+    _place_new(thing, name, np.array([vertex] * 3), np.array([1.0, 0.0, 0.0]))
 
 
 def add_point_near(thing: Object, name: str, place: FloatArray) -> None:
@@ -54,7 +123,7 @@ def add_point_near(thing: Object, name: str, place: FloatArray) -> None:
     mesh = neutral_mesh(thing)
     own = np.linalg.solve(np.array(thing.matrix_world, np.float64), [*place, 1.0])[:3]
     found = SurfaceFinder(mesh).closest(to_face_space(thing, own)[None])
-    _append_new(thing, name, mesh.faces[found.face[0]], found.weights[0])
+    _place_new(thing, name, mesh.faces[found.face[0]], found.weights[0])
 
 
 def selected_vertex(thing: Object) -> int:
@@ -73,17 +142,25 @@ def point_positions(thing: Object) -> FloatArray:
     return from_face_space(thing, points.positions(neutral_mesh(thing).vertices))
 
 
-def _append_new(thing: Object, name: str, vertices: IntArray, weights: FloatArray) -> None:
-    if not name:
-        raise RetargetError("the new feature point has no name, expected an FDP number or a free name")
+def _place_new(thing: Object, name: str, vertices: IntArray, weights: FloatArray) -> None:
     if name in thing.facial_retarget.points:
         raise RetargetError(f"object {thing.name!r} has a feature point {name!r} already, expected a new name")
-    _append(thing, name, vertices, weights)
-    thing.facial_retarget.active_point = len(thing.facial_retarget.points) - 1
+    place_point(thing, name, vertices, weights)
 
 
-def _append(thing: Object, name: str, vertices: IntArray, weights: FloatArray) -> None:
-    point = thing.facial_retarget.points.add()
+def _append(stored: bpy_prop_collection, name: str, vertices: Sequence[int], weights: Sequence[float]) -> None:
+    point = stored.add()
     point.name = name
-    point.vertices = vertices.tolist()
-    point.weights = weights.tolist()
+    _put(point, vertices, weights)
+
+
+def _put(point: PropertyGroup, vertices: Sequence[int], weights: Sequence[float]) -> None:
+    # Blender takes no NumPy integers.
+    point.vertices = [int(vertex) for vertex in vertices]
+    point.weights = [float(weight) for weight in weights]
+
+
+def _drop(stored: bpy_prop_collection, name: str) -> None:
+    row = stored.find(name)
+    if row >= 0:
+        stored.remove(row)

@@ -1,0 +1,52 @@
+"""Where the feature points of an object are in the world, as it looks now."""
+
+from __future__ import annotations
+
+import numpy as np
+from bpy.types import Depsgraph, Object
+
+from ..core.arrays import FloatArray
+from .meshes import read_positions
+from .points import read_points, read_proposals
+
+LOSES_ORDER = {
+    *("BEVEL", "BOOLEAN", "BUILD", "DECIMATE", "EXPLODE", "FLUID", "MASK", "NODES", "OCEAN", "REMESH", "SKIN"),
+    *("VOLUME_TO_MESH", "WELD", "WIREFRAME"),
+}
+"""Modifiers that may renumber the vertices. Others that add some, as subdivision does, put them behind the old ones."""
+
+
+def world_places(thing: Object, depsgraph: Depsgraph, which: str = "points") -> tuple[tuple[str, ...], FloatArray]:
+    """Names and places (P, 3), in world space, of the points on the evaluated surface.
+
+    Where a modifier has renumbered the vertices, a point lies where the surface is closest to its place before all
+    modifiers.
+
+    Parameters
+    ----------
+    which : "points" for those that are placed, "proposals" for those that are predicted.
+
+    Raises
+    ------
+    RetargetError : as for `read_points`.
+    """
+    points = read_points(thing) if which == "points" else read_proposals(thing)
+    if not len(points):
+        return (), np.empty((0, 3))
+    shown = thing.evaluated_get(depsgraph)
+    count = len(thing.data.vertices)
+    if _order_kept(thing, len(shown.data.vertices)):
+        flat = np.empty(3 * len(shown.data.vertices), np.float32)
+        shown.data.attributes["position"].data.foreach_get("vector", flat)
+        own = points.positions(flat.reshape(-1, 3)[:count].astype(np.float64))
+    else:
+        before = points.positions(read_positions(thing.data).astype(np.float64))
+        own = np.array([shown.closest_point_on_mesh(place)[1] for place in before.tolist()])
+    matrix = np.array(thing.matrix_world, np.float64)
+    return points.names, own @ matrix[:3, :3].T + matrix[:3, 3]
+
+
+def _order_kept(thing: Object, shown: int) -> bool:
+    count = len(thing.data.vertices)
+    active = {modifier.type for modifier in thing.modifiers if modifier.show_viewport}
+    return shown == count or (shown > count and not active & LOSES_ORDER)
