@@ -1,11 +1,12 @@
 # make demo   sets up .venv and retargets the built-in performance onto the built-in faces
-# make test   sets up .venv and runs all tests
+# make test   sets up .venv and runs all tests but those that need a window
+# make gui-test   plays in the window of a real Blender: as root, for it makes one from Debian's packages
 PYTHON ?= python3.11
 BIN := .venv/bin
 DEMO ?= build/demo
 export OMP_NUM_THREADS ?= 2
 
-.PHONY: demo test test-blenders lint zip bench pins clean
+.PHONY: demo test test-blenders gui-test lint zip bench pins clean
 .DELETE_ON_ERROR:
 
 .venv/ready: requirements/develop.txt pyproject.toml
@@ -19,7 +20,7 @@ demo: .venv/ready
 	$(BIN)/python docs/samples/05_demo_scene.py $(DEMO)
 
 test: .venv/ready
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest --ignore=tests/gui
 
 # The same Blender tests in the oldest and the newest Blender that are supported.
 .venv-%/ready: requirements/blender-%.txt
@@ -31,6 +32,11 @@ BLENDERS ?= 4.5 5.2
 test-blenders: .venv/ready $(BLENDERS:%=.venv-%/ready)
 	FACIAL_RETARGET_BLENDER_PYTHONS="$(subst $() ,:,$(BLENDERS:%=$(CURDIR)/.venv-%/bin/python))" \
 	    $(BIN)/python -m pytest tests/blender
+
+export FACIAL_RETARGET_BLENDER_ROOT ?= $(CURDIR)/build/blender-root
+gui-test: .venv/ready
+	tests/gui/make_blender_root.sh "$(FACIAL_RETARGET_BLENDER_ROOT)"
+	$(BIN)/python -m pytest tests/gui
 
 lint: .venv/ready
 	$(BIN)/ruff check .

@@ -1,0 +1,322 @@
+"""Drives a real Blender window by simulated events.
+
+A scenario is a file with a generator `scenario()`. Each `yield` gives Blender a turn, in which it handles the events
+so far and draws the window; what needs several turns is a generator itself: `yield from click(x, y)`. Places are in
+pixels from the window's lower left corner.
+"""
+
+import os
+import subprocess
+import sys
+import traceback
+from collections.abc import Callable, Generator, Iterator, Sequence
+from pathlib import Path
+from time import monotonic
+from typing import Any
+
+import bpy
+from bpy_extras.view3d_utils import location_3d_to_region_2d
+
+OUT = Path()
+"""Where screenshots go, and what else a scenario writes."""
+ARGUMENTS: list[str] = []
+"""What follows the scenario's name on the command line."""
+
+Turns = Generator[None, None, Any]
+TURN = 0.01
+"""Seconds between two turns, at least: a redraw takes longer."""
+_mouse = [0, 0]
+
+
+# The scenario's life.
+
+
+def set_preferences() -> None:
+    """Before the window is drawn: nothing that steals a click, nothing that moves by itself."""
+    preferences = bpy.context.preferences
+    preferences.view.show_splash = False
+    preferences.view.smooth_view = 0
+    preferences.view.show_tooltips = False
+    preferences.system.viewport_aa = "OFF"
+    preferences.use_preferences_save = False
+    preferences.filepaths.use_auto_save_temporary_files = False
+
+
+def play(scenario: Callable[[], Turns]) -> None:
+    """Play a scenario from a timer, turn by turn; Blender then ends with a true status and without a question."""
+    turns = scenario()
+
+    def tick() -> float:
+        try:
+            next(turns)
+            return TURN
+        except StopIteration:
+            status = 0
+        except BaseException:
+            traceback.print_exc()
+            screenshot("failed")
+            status = 1
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(status)
+
+    # Persistent: a timer must outlive the opening of a file.
+    bpy.app.timers.register(tick, first_interval=0.5, persistent=True)
+
+
+def log(*words: object) -> None:
+    """Say something that the log shows."""
+    print("[gui]", *words, flush=True)
+
+
+def wait(turns: int = 5) -> Turns:
+    """Give Blender some turns."""
+    for _ in range(turns):
+        yield
+
+
+def wait_until(condition: Callable[[], object], what: str, seconds: float = 60) -> Turns:
+    """Give Blender turns until something is so; fails when it takes too long."""
+    end = monotonic() + seconds
+    while not condition():
+        assert monotonic() < end, f"not after {seconds} s: {what}"
+        yield
+
+
+# Where things are.
+
+
+def window() -> bpy.types.Window:
+    """The window; in a timer bpy.context.window is None."""
+    return bpy.data.window_managers[0].windows[0]
+
+
+def area(kind: str = "VIEW_3D", place: int = 0) -> bpy.types.Area:
+    """An editor, counted from the left."""
+    found = [area for area in window().screen.areas if area.type == kind]
+    return sorted(found, key=lambda area: (area.x, -area.y))[place]
+
+
+def region(kind: str = "WINDOW", editor: bpy.types.Area | None = None) -> bpy.types.Region:
+    """A region of an editor, the 3D view if none is named."""
+    return next(region for region in (editor or area()).regions if region.type == kind)
+
+
+def override(editor: bpy.types.Area | None = None, kind: str = "WINDOW") -> Any:
+    """The context of an editor, for operators without a place of their own."""
+    editor = editor or area()
+    return bpy.context.temp_override(window=window(), area=editor, region=region(kind, editor))
+
+
+def on_screen(world: Sequence[float], editor: bpy.types.Area | None = None) -> tuple[float, float]:
+    """Pixels of a place in the scene, as a 3D view shows it."""
+    editor = editor or area()
+    shown = region("WINDOW", editor)
+    place = location_3d_to_region_2d(shown, editor.spaces.active.region_3d, world)
+    assert place is not None, f"{world} lies behind the view"
+    return shown.x + place.x, shown.y + place.y
+
+
+def look(axis: str = "FRONT", things: Sequence[bpy.types.Object] = (), editor: bpy.types.Area | None = None) -> Turns:
+    """Turn a 3D view and frame some objects in it, or all that is there; what was selected stays so."""
+    editor = editor or area()
+    chosen, active = [thing for thing in bpy.data.objects if thing.select_get()], bpy.context.view_layer.objects.active
+    with override(editor):
+        bpy.ops.view3d.view_axis(type=axis)
+        if things:
+            for thing in bpy.data.objects:
+                thing.select_set(thing in things)
+            bpy.ops.view3d.view_selected()
+            for thing in bpy.data.objects:
+                thing.select_set(thing in chosen)
+            bpy.context.view_layer.objects.active = active
+        else:
+            bpy.ops.view3d.view_all()
+    yield from wait()
+
+
+# Mouse and keys.
+
+
+def _simulate(kind: str, value: str, **more: Any) -> None:
+    window().event_simulate(type=kind, value=value, x=_mouse[0], y=_mouse[1], **more)
+
+
+def move(x: float, y: float) -> Turns:
+    """Move the mouse; twice, for the first move only makes the region under it the active one."""
+    _mouse[:] = round(x), round(y)
+    for _ in range(2):
+        _simulate("MOUSEMOVE", "NOTHING")
+        yield
+
+
+def click(x: float, y: float, button: str = "LEFTMOUSE", **modifiers: bool) -> Turns:
+    """Click; modifiers are shift, ctrl, alt, oskey."""
+    yield from move(x, y)
+    _simulate(button, "PRESS", **modifiers)
+    yield
+    _simulate(button, "RELEASE", **modifiers)
+    yield from wait(3)
+
+
+def drag(
+    start: Sequence[float], end: Sequence[float], steps: int = 8, button: str = "LEFTMOUSE", **modifiers: bool
+) -> Turns:
+    """Press, move in a straight line, release."""
+    yield from move(*start)
+    _simulate(button, "PRESS", **modifiers)
+    yield
+    for step in range(1, steps + 1):
+        _mouse[:] = (round(a + (b - a) * step / steps) for a, b in zip(start, end, strict=True))
+        _simulate("MOUSEMOVE", "NOTHING", **modifiers)
+        yield
+    _simulate(button, "RELEASE", **modifiers)
+    yield from wait(3)
+
+
+def key(kind: str, **modifiers: Any) -> Turns:
+    """Press and release a key where the mouse is."""
+    _simulate(kind, "PRESS", **modifiers)
+    yield
+    _simulate(kind, "RELEASE", **{name: value for name, value in modifiers.items() if name != "unicode"})
+    yield from wait(3)
+
+
+def write(text: str) -> Turns:
+    """Type into the field that has the keyboard; ends without RET."""
+    for letter in text:
+        yield from key("A", unicode=letter)
+
+
+def undo() -> Turns:
+    """Ctrl Z over the 3D view."""
+    yield from _over_view()
+    yield from key("Z", ctrl=True)
+
+
+def redo() -> Turns:
+    """Shift Ctrl Z over the 3D view."""
+    yield from _over_view()
+    yield from key("Z", ctrl=True, shift=True)
+
+
+def _over_view() -> Turns:
+    shown = region()
+    yield from move(shown.x + 0.5 * shown.width, shown.y + 20)
+
+
+# Buttons. Python knows no button's place, but Blender copies the command of the button under the mouse.
+
+
+def open_tab(name: str = "Retarget", editor: bpy.types.Area | None = None) -> Turns:
+    """Show the sidebar of a 3D view with one of its tabs."""
+    editor = editor or area()
+    editor.spaces.active.show_region_ui = True
+    yield from wait()  # the tab can only be chosen once the region was drawn
+    sidebar = region("UI", editor)
+    sidebar.active_panel_category = name
+    sidebar.tag_redraw()
+    yield from wait()
+    assert sidebar.active_panel_category == name, f"there is no tab {name}"
+
+
+def button_under_mouse(shown: bpy.types.Region, editor: bpy.types.Area) -> str:
+    """What the button under the mouse does: "facial_retarget.retarget()" or the path of its property; "" for none."""
+    manager = bpy.data.window_managers[0]
+    manager.clipboard = ""
+    with bpy.context.temp_override(window=window(), area=editor, region=shown):
+        for copy in (bpy.ops.ui.copy_python_command_button, bpy.ops.ui.copy_data_path_button):
+            if copy.poll():
+                copy()
+                if manager.clipboard:
+                    return manager.clipboard.removeprefix("bpy.ops.")
+    return ""
+
+
+def buttons(kind: str = "UI", editor: bpy.types.Area | None = None, across: Sequence[float] = (0.3, 0.8)) -> Turns:
+    """Every button that the mouse finds in a region from top to bottom, as [(what it does, x, y)]."""
+    editor = editor or area()
+    shown = region(kind, editor)
+    step = 0.5 * 20 * bpy.context.preferences.system.ui_scale
+    found: list[tuple[str, float, float]] = []
+    for row in range(1, int(shown.height / step)):
+        for share in across:
+            x, y = shown.x + share * (shown.width - 20), shown.y + shown.height - row * step
+            yield from move(x, y)
+            what = button_under_mouse(shown, editor)
+            if what and what not in [other for other, *_ in found]:
+                found.append((what, x, y))
+    return found
+
+
+def find_button(
+    what: str, kind: str = "UI", editor: bpy.types.Area | None = None, across: Sequence[float] = (0.3, 0.6, 0.9)
+) -> Turns:
+    """The place of the first button whose command or property path holds `what`; scrolls down if it must."""
+    editor = editor or area()
+    shown = region(kind, editor)
+    step = 0.5 * 20 * bpy.context.preferences.system.ui_scale
+    seen = set()
+    for _ in range(6):
+        before = len(seen)
+        for row in range(1, int(shown.height / step)):
+            for share in across:
+                x, y = shown.x + share * (shown.width - 20), shown.y + shown.height - row * step
+                yield from move(x, y)
+                command = button_under_mouse(shown, editor)
+                seen.add(command)
+                if command and what in command:
+                    yield from move(x, y - 0.5 * step)
+                    if what not in button_under_mouse(shown, editor):
+                        yield from move(x, y)
+                    return _mouse[0], _mouse[1]
+        if before == len(seen):
+            break
+        yield from scroll(shown)
+    raise AssertionError(f"no button does {what}; there are {sorted(seen - {''})}")
+
+
+def press_button(what: str, kind: str = "UI", editor: bpy.types.Area | None = None) -> Turns:
+    """Press a button with the mouse, found by its operator ("facial_retarget.retarget") or its property."""
+    x, y = yield from find_button(what, kind, editor)
+    yield from click(x, y)
+
+
+def scroll(shown: bpy.types.Region, turns: int = 10) -> Turns:
+    """Turn the mouse's wheel over a region."""
+    yield from move(shown.x + 0.5 * shown.width, shown.y + 0.5 * shown.height)
+    for _ in range(turns):
+        _simulate("WHEELDOWNMOUSE", "PRESS")
+        yield
+    yield from wait()
+
+
+def search(label: str) -> Turns:
+    """Call an operator as an artist does who does not know where its button is: F3, its name, Return."""
+    yield from _over_view()
+    yield from key("F3")
+    yield from write(label)
+    yield from wait()
+    yield from key("RET")
+    yield from wait()
+
+
+# Pictures.
+
+
+def screenshot(name: str) -> Path:
+    """A picture of the whole window; Blender's own screenshot is black on a screen in memory."""
+    path = OUT / f"{name}.png"
+    subprocess.run(["import", "-window", "root", path], check=True)
+    log("screenshot", path)
+    return path
+
+
+def reports() -> Iterator[str]:
+    """What Blender has told the artist so far."""
+    with override():
+        bpy.ops.ui.reports_to_textblock()
+    text = bpy.data.texts["Recent Reports"]
+    lines = [line.body for line in text.lines]
+    bpy.data.texts.remove(text)
+    return iter(lines)

@@ -1,0 +1,61 @@
+"""What the scenarios play with: the installed extension's modules, and small built-in faces."""
+
+from importlib import import_module
+from types import ModuleType
+from typing import Any
+
+import bpy
+import numpy as np
+from drive import override
+
+NAME = "bl_ext.user_default.facial_retarget"
+
+
+def part(name: str) -> ModuleType:
+    """A module of the installed extension, such as "bridge.bake"."""
+    return import_module(f"{NAME}.facial_retarget_addon.{name}")
+
+
+def clear() -> None:
+    """An empty scene in the window that is open."""
+    bpy.data.batch_remove([*bpy.data.objects, *bpy.data.meshes])
+    bpy.context.view_layer.update()
+
+
+def add_face(built: Any, name: str, place: float = 0.0, points: bool = True) -> bpy.types.Object:
+    """A built-in face (`demo.DemoFace`) that stands upright, 2 high, `place` along X, active and selected."""
+    file = part("files.mesh_file").MeshFile(built.face.mesh, built.counts, built.corners, built.uvs[built.corners])
+    made = part("bridge.meshes").new_face(name, file)
+    low, high = built.face.mesh.vertices.min(axis=0), built.face.mesh.vertices.max(axis=0)
+    middle, size = 0.5 * (low + high), 2.0 / (high[1] - low[1])
+    made.rotation_euler.x = part("bridge.donors").STANDING
+    made.scale = (size,) * 3
+    made.location = (place - size * middle[0], size * middle[2], -size * middle[1])
+    if points:
+        part("bridge.points").write_points(made, built.face.points)
+    choose(made)
+    remember()
+    return made
+
+
+def remember() -> None:
+    """Make the scene as it is a step of the undo history: Ctrl Z goes back to steps, and what a script does is none."""
+    with override():
+        bpy.ops.ed.undo_push(message="Stage")
+
+
+def choose(thing: bpy.types.Object) -> None:
+    """Make an object the active and the only selected one."""
+    for other in bpy.context.view_layer.objects:
+        other.select_set(other is thing)
+    bpy.context.view_layer.objects.active = thing
+    bpy.context.view_layer.update()
+
+
+def point_places(thing: bpy.types.Object) -> dict[str, np.ndarray]:
+    """Name -> (3,) place in the scene of each of an object's feature points, on its neutral."""
+    points = part("bridge.points")
+    world = np.array(thing.matrix_world)
+    own = points.point_positions(thing)
+    names = [point.name for point in thing.facial_retarget.points]
+    return dict(zip(names, own @ world[:3, :3].T + world[:3, 3], strict=True))
