@@ -2,8 +2,9 @@
 
 from . import operators, panels
 from .facial_retarget_addon import properties, viewport
+from .facial_retarget_addon.bridge import geometry_watch
 
-PARTS = (properties, operators, viewport, panels)
+PARTS = (properties, geometry_watch, operators, viewport, panels)
 
 
 def register() -> None:

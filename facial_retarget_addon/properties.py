@@ -111,8 +111,53 @@ class FACIAL_RETARGET_PG_face(PropertyGroup):
     head: PointerProperty(name="Head", type=Object, description="The empty that shows how the head turns")
 
 
+EXAMPLE_STATES = [
+    ("MISSING", "Missing", "The face has no shape key of this name", "X", 0),
+    ("EMPTY", "Not Sculpted", "The shape key equals the Basis: the example is left out", "RADIOBUT_OFF", 1),
+    ("SCULPTED", "Sculpted", "The shape key moves the face", "RADIOBUT_ON", 2),
+]
+
+
 class FACIAL_RETARGET_PG_example(PropertyGroup):
     """An example expression: the shape key of this name on both faces. `name` is inherited."""
+
+    def _state(self, side: str) -> str:
+        """What `bridge.example_states` says of the example."""
+        from .bridge.example_states import states_of
+
+        state = states_of(self.id_data.facial_retarget).get(self.name)
+        return "" if state is None else getattr(state, side)
+
+    def _source_state(self) -> int:
+        return _STATE_NUMBERS.get(self._state("source"), 0)
+
+    def _target_state(self) -> int:
+        return _STATE_NUMBERS.get(self._state("target"), 0)
+
+    def _warning(self) -> str:
+        return self._state("warning")
+
+    source_state: EnumProperty(
+        name="On the Source", items=EXAMPLE_STATES, get=_source_state, description="How far the example is there"
+    )
+    target_state: EnumProperty(
+        name="On the Target", items=EXAMPLE_STATES, get=_target_state, description="How far the example is there"
+    )
+    warning: StringProperty(name="Warning", get=_warning, description="What is wrong with the example")
+
+
+_STATE_NUMBERS = {state[0]: state[-1] for state in EXAMPLE_STATES}
+
+
+class FACIAL_RETARGET_PG_sculpting(PropertyGroup):
+    """The example that is being sculpted, and what is to be as it was afterwards."""
+
+    thing: PointerProperty(name="Object", type=Object, description="The object in Sculpt Mode")
+    example: StringProperty(name="Example", description="Its name")
+    side: StringProperty(name="Face", description="SOURCE or TARGET")
+    before: PointerProperty(name="Active Object", type=Object, description="The object that was active before")
+    key: StringProperty(name="Shape Key", description="The shape key that was active before")
+    pinned: BoolProperty(name="Pinned", description="Whether it alone was shown before")
 
 
 def _label(name: str) -> str:
@@ -233,6 +278,7 @@ class FACIAL_RETARGET_PG_task(PropertyGroup):
     )
     examples: CollectionProperty(type=FACIAL_RETARGET_PG_example)
     active_example: IntProperty(name="Active example")
+    sculpting: PointerProperty(type=FACIAL_RETARGET_PG_sculpting)
     cloning: PointerProperty(type=FACIAL_RETARGET_PG_cloning)
     method: EnumProperty(name="Method", items=[(name, _label(name), text) for name, text in METHODS.items()])
     report: StringProperty(name="Report", subtype="FILE_PATH", description="Where to write the figures (.json)")
@@ -253,6 +299,7 @@ CLASSES = (
     FACIAL_RETARGET_PG_cloned_key,
     FACIAL_RETARGET_PG_face,
     FACIAL_RETARGET_PG_example,
+    FACIAL_RETARGET_PG_sculpting,
     *SETTINGS_GROUPS.values(),
     FACIAL_RETARGET_PG_cloning,
     FACIAL_RETARGET_PG_task,

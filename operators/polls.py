@@ -42,14 +42,16 @@ class OnPoints(OnFace):
 class OnTask:
     """For operators on source and target."""
 
+    modes = ("OBJECT",)
+
     @classmethod
     def poll(cls, context: Context) -> bool:
-        """Source and target must be chosen, in Object Mode."""
+        """Source and target must be chosen, in a mode that the operator can work in."""
         task = context.scene.facial_retarget
         if task.source is None or task.target is None:
             cls.poll_message_set("Choose a source and a target under Faces")
             return False
-        return in_mode(cls, context)
+        return in_mode(cls, context, cls.modes)
 
 
 class OnCloning:

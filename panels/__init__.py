@@ -23,6 +23,7 @@ CLASSES = (
     feature_points.FACIAL_RETARGET_PT_points,
     head_parts.FACIAL_RETARGET_UL_parts,
     head_parts.FACIAL_RETARGET_PT_parts,
+    examples.FACIAL_RETARGET_UL_examples,
     examples.FACIAL_RETARGET_PT_examples,
     method.FACIAL_RETARGET_PT_retarget,
     method.FACIAL_RETARGET_PT_settings,

@@ -7,6 +7,7 @@ from bpy.types import Object, PropertyGroup
 
 from ..core.arrays import FloatArray
 from ..core.errors import RetargetError
+from ..core.example_states import is_sculpted
 from ..core.mpeg4.expressions import EXPRESSIONS
 from .heads import Head
 from .shape_keys import ensure_key, find_key, key_displacement, write_key
@@ -19,6 +20,20 @@ def create_examples(task: PropertyGroup) -> None:
             task.examples.add().name = name
         for thing in (task.source, task.target):
             ensure_key(thing, name)
+
+
+def chosen_example(task: PropertyGroup, name: str = "") -> str:
+    """The name of an example on the list, the chosen row's if none is given.
+
+    Raises
+    ------
+    RetargetError : if the list has no such example.
+    """
+    row = task.active_example
+    name = name or (task.examples[row].name if row in range(len(task.examples)) else "")
+    if name not in task.examples:
+        raise RetargetError(f"example {name!r} is not on the list of {len(task.examples)}, expected one that is")
+    return name
 
 
 def write_example(thing: Object, name: str, positions: FloatArray) -> None:
@@ -41,10 +56,11 @@ def read_examples(
     on_target: dict[str, FloatArray] = {}
     for example in task.examples:
         ours, theirs = (_displacement(head, example.name) for head in (source, target))
-        if ours.any() and theirs.any():
+        here, there = (is_sculpted(moves, head.face.mesh.size) for moves, head in ((ours, source), (theirs, target)))
+        if here and there:
             on_source[example.name], on_target[example.name] = ours, theirs
-        elif ours.any() or theirs.any():
-            still = target if ours.any() else source
+        elif here or there:
+            still = target if here else source
             raise RetargetError(
                 f"example {example.name!r} moves no vertex of object {still.name!r}, expected it sculpted on both faces"
             )

@@ -7,14 +7,13 @@ The skin is the connected component that holds most feature points; eyes, teeth 
 
 from __future__ import annotations
 
-from itertools import combinations
-
 import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
 from .arrays import BoolArray, FloatArray, IntArray
 from .errors import RetargetError
+from .example_states import STILL, same_shapes
 from .methods.settings import LEAST_POINTS, LevelSettings, Settings, least_points
 from .mpeg4.regions import OWN_PARTS
 from .parts.kinds import named_faults
@@ -29,8 +28,6 @@ NO_AREA = 1e-12
 """A face has no area below this, times the square of the mesh's size."""
 MOST_VERTICES = 5_000_000
 """Vertices that the finest level may have."""
-STILL = 1e-6
-"""Motion below this, times the mesh's size, is none."""
 RIGID = 1e-4
 """Motion that is left below this, times the mesh's size, when the head's motion is taken out, is none."""
 NEUTRAL = "neutral"
@@ -257,12 +254,7 @@ def _shape_faults(what: str, face: Face, positions: FloatArray) -> list[str]:
 
 
 def _same_examples(face: Face) -> list[tuple[str, str]]:
-    tolerance = STILL * face.mesh.size
-    return [
-        (a, b)
-        for (a, one), (b, other) in combinations(face.examples.items(), 2)
-        if np.shape(one) == np.shape(other) and np.abs(one - other).max(initial=0.0) < tolerance
-    ]
+    return same_shapes(face.examples, STILL * face.mesh.size)
 
 
 # ---- levels and frames --------------------------------------------------------------------------

@@ -52,10 +52,10 @@ def draw_all() -> None:
             if draw in dir(panel):
                 getattr(panel, draw)(shown, InSidebar())
     face = bpy.data.objects["target"].facial_retarget
-    for kind, items in (("parts", face.parts), ("cloned", face.cloned)):
-        for item in items:
+    for kind, data in (("parts", face), ("cloned", face), ("examples", task)):
+        for item in getattr(data, kind):
             getattr(bpy.types, f"FACIAL_RETARGET_UL_{kind}").draw_item(
-                None, bpy.context, Recorder(), face, item, 0, face
+                None, bpy.context, Recorder(), data, item, 0, data
             )
 
 
@@ -73,6 +73,10 @@ for active in (None, task.source, task.target):
     draw_all()
 task.target.facial_retarget.parts.add().thing = task.source
 task.target.facial_retarget.cloned.add().name = "joy"
+bpy.ops.facial_retarget.create_examples()
+bpy.ops.facial_retarget.sculpt_example(example="fear")
+draw_all()
+bpy.ops.facial_retarget.stop_sculpting()
 for donor, sides in (("ACTOR", "SPLIT"), ("SOURCE", "MERGE")):
     task.cloning.donor, task.cloning.sides = donor, sides
     for method in ("hierarchical", "motion_cloning"):
