@@ -2,7 +2,7 @@
 
 from bpy.types import Context, Panel, PropertyGroup, UILayout, UIList
 
-from .tab import Step
+from .tab import Step, draw_text, filled
 
 
 class FACIAL_RETARGET_UL_examples(UIList):
@@ -41,7 +41,8 @@ class FACIAL_RETARGET_PT_examples(Step, Panel):
         layout.operator("facial_retarget.create_examples")
         if task.sculpting.thing is not None:
             row = layout.row()
-            row.label(text=f"{task.sculpting.example} on {task.sculpting.thing.name}", icon="SCULPTMODE_HLT")
+            where = {"example": task.sculpting.example, "face": task.sculpting.thing.name}
+            row.label(text=filled("{example} on {face}", **where), icon="SCULPTMODE_HLT", translate=False)
             row.operator("facial_retarget.stop_sculpting", icon="CHECKMARK")
         split = layout.split(factor=0.5)
         split.label(text="Example")
@@ -54,10 +55,10 @@ class FACIAL_RETARGET_PT_examples(Step, Panel):
         buttons.operator("facial_retarget.add_example", text="", icon="ADD")
         buttons.operator("facial_retarget.remove_example", text="", icon="REMOVE")
         if task.active_example in range(len(task.examples)):
-            _draw_chosen(layout.box(), task.examples[task.active_example])
+            _draw_chosen(layout, context, task.examples[task.active_example])
 
 
-def _draw_chosen(box: UILayout, example: PropertyGroup) -> None:
+def _draw_chosen(layout: UILayout, context: Context, example: PropertyGroup) -> None:
     """What is wrong with the chosen example."""
     if example.warning:
-        box.label(text=example.warning, icon="ERROR")
+        draw_text(layout, context, example.warning, "ERROR")
