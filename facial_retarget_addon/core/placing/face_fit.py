@@ -1,0 +1,121 @@
+"""The average face laid on a head: turned, scaled and bent to the points that are known and to the surface."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..arrays import FloatArray, IntArray
+from ..closest_point import SurfaceFinder
+from ..rigid import Similarity, fit_similarity
+from .template import Template
+
+EXACT = 0.005
+"""How exact a known point is, in eye separations."""
+SLACK = 0.07
+"""How exactly the average face, once bent, meets the surface."""
+ROUNDS = 3
+"""Of looking for the nearest surface."""
+AGREEMENT = 0.4
+"""Smallest dot product of two normals that agree."""
+REACH = 0.3
+"""How far the surface may be, in eye separations."""
+TRUSTED = 0.1
+"""Distance at which a place of the surface counts half."""
+BOLDEST = 3.0
+"""A face may differ this many times as much from the average as faces usually do."""
+
+
+@dataclass(frozen=True, eq=False)
+class FaceFit:
+    """Where the points of a template lie on a head, before they are put on its surface.
+
+    Attributes
+    ----------
+    pose : takes the template to the head.
+    differences : (N, 3) by which the head differs from the template, in the template's axes and units.
+    """
+
+    template: Template
+    pose: Similarity
+    differences: FloatArray
+
+    @property
+    def places(self) -> FloatArray:
+        """(N, 3) on the head."""
+        return self.pose.apply(self.template.places + self.differences)
+
+    @property
+    def normals(self) -> FloatArray:
+        """(N, 3) outwards, on the head."""
+        return self.template.normals @ self.pose.rotation.T
+
+
+def fit_face(template: Template, rows: IntArray, places: FloatArray, finder: SurfaceFinder) -> FaceFit:
+    """Lay a template on a head: a Gaussian process whose observations are the known points and the surface.
+
+    Known points give all three coordinates; every other point tells only how far the surface lies from it along its
+    normal, with less weight the farther it is.
+
+    Parameters
+    ----------
+    rows : (P,) of the known points in the template, at least 3 that are not on one line.
+    places : (P, 3) where they are.
+    finder : of the head's skin.
+
+    Raises
+    ------
+    RetargetError : as `fit_similarity`.
+
+    References
+    ----------
+    Rasmussen and Williams 2006, equations (2.25) and (2.26); Luethi et al. 2017 for faces.
+    """
+    pose = fit_similarity(template.places[rows], places)
+    known = pose.inverse.apply(places) - template.places[rows]
+    columns = (3 * rows[:, None] + np.arange(3)).ravel()
+    among = template.covariance[np.ix_(columns, columns)]
+    exact = np.full(len(columns), EXACT**2)
+    boldness = _boldness(among + np.diag(exact), known.ravel())
+    differences = _condition(boldness * template.covariance[:, columns], boldness * among, exact, known.ravel())
+    fit = FaceFit(template, pose, differences)
+    free = np.setdiff1d(np.arange(len(template.names)), rows)
+    for _ in range(ROUNDS):
+        fit = FaceFit(template, pose, _towards_surface(fit, free, columns, known, boldness, finder))
+    return fit
+
+
+def _boldness(covariance: FloatArray, known: FloatArray) -> float:
+    """How many times as much this face differs from the average as faces do: squared, 1 or more."""
+    squared = float(known @ np.linalg.solve(covariance, known)) / len(known)
+    return float(np.clip(squared, 1.0, BOLDEST**2))
+
+
+def _condition(cross_covariance: FloatArray, covariance: FloatArray, slack: FloatArray, seen: FloatArray) -> FloatArray:
+    """(N, 3) the mean of the differences once some have been seen: K* (K + slack)^-1 y."""
+    solved = np.linalg.solve(covariance + np.diag(slack), seen)
+    mean: FloatArray = (cross_covariance @ solved).reshape(-1, 3)
+    return mean
+
+
+def _towards_surface(
+    fit: FaceFit, free: IntArray, columns: IntArray, known: FloatArray, boldness: float, finder: SurfaceFinder
+) -> FloatArray:
+    """(N, 3) differences that know where the surface lies next to the points that are free."""
+    template, pose = fit.template, fit.pose
+    found = finder.closest(fit.places[free], fit.normals[free], AGREEMENT, REACH * pose.scale)
+    met = found.face >= 0
+    rows, outwards = free[met], template.normals[free[met]]
+    seen = pose.inverse.apply(found.point[met]) - template.places[rows]
+    away = np.einsum("pi,pi->p", seen - fit.differences[rows], outwards)
+    # Columns of the covariance that belong to what is seen: the known coordinates, then along the normals.
+    count = len(template.names)
+    along = np.einsum("npk,pk->np", template.covariance.reshape(3 * count, count, 3)[:, rows], outwards)
+    cross_covariance = boldness * np.concatenate([template.covariance[:, columns], along], axis=1)
+    of_normals = np.einsum("pkn,pk->pn", cross_covariance.reshape(count, 3, -1)[rows], outwards)
+    covariance = np.concatenate([cross_covariance[columns], of_normals])
+    slack = np.concatenate([np.full(len(columns), EXACT**2), SLACK**2 * (1 + (away / TRUSTED) ** 2)])
+    return _condition(
+        cross_covariance, covariance, slack, np.concatenate([known.ravel(), np.einsum("pi,pi->p", seen, outwards)])
+    )
