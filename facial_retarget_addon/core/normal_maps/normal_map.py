@@ -1,0 +1,199 @@
+"""Tangent-space normal maps: a table of texels once per pair, then pixels for every frame."""
+
+from __future__ import annotations
+
+import os
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+import scipy.sparse as sp
+
+from ..arrays import BoolArray, FloatArray, IntArray, cross, unit_vectors
+from ..closest_point import SurfaceFinder
+from ..errors import RetargetError
+from ..mesh import TriMesh
+from ..points import place_matrix
+from ..raycast import CasterFactory, EmbreeCaster
+from .surface import TexturedSurface
+from .tangents import TangentSpace
+from .texels import margin, rasterise
+
+_AGREEMENT = 0.2
+"""A place of the fine mesh counts where its normal's dot product with the light mesh's is above this."""
+_REACH = 0.05
+"""How far from the light mesh the fine one is looked for, in sizes of the light mesh."""
+_NEAR = 0.005
+"""The same for a place that no ray has found."""
+_BLOCK = 1 << 14
+"""Texels that go through together: what one block needs stays in the cache."""
+_THREADS = min(4, os.cpu_count() or 1)
+
+
+class _Block(NamedTuple):
+    """Some texels: the pixels, the matrices to their normals on the fine mesh and to their frames, and their signs."""
+
+    pixel: IntArray
+    fine: sp.csr_matrix
+    frame: sp.csr_matrix
+    sign: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class NormalMap:
+    """The texels of a light mesh, each with its place on a fine mesh.
+
+    Attributes
+    ----------
+    size : pixels along each side.
+    pixel : (T,) covered pixels, row after row from the bottom left.
+    around, nearest : (M,) pixels of the margin, and the covered pixel that each one copies.
+    missed : texels without a place on the fine mesh: they are flat.
+    """
+
+    size: int
+    pixel: IntArray
+    around: IntArray
+    nearest: IntArray
+    missed: int
+    _surface: TexturedSurface
+    _space: TangentSpace
+    _fine_faces: IntArray
+    _incidence: sp.csr_matrix
+    _blocks: tuple[_Block, ...]
+
+    def vectors(self, light: FloatArray, fine: FloatArray) -> FloatArray:
+        """Unit normals of a frame in tangent space.
+
+        Parameters
+        ----------
+        light : (V, 3) positions of the light mesh. fine : (N, 3) positions of the fine mesh, in the same space.
+
+        Returns
+        -------
+        (size, size, 3) float32, row 0 at the bottom: x along u, y along v (OpenGL's way), z out of the surface; 0, 0, 1
+        where nothing is.
+        """
+        normals = self._surface.normals(light)
+        tangents = self._space.tangents(np.asarray(light, np.float64), normals)
+        frames = np.column_stack([normals[self._space.vertex], tangents]).astype(np.float32)
+        there = self._fine_normals(fine)
+        image = np.zeros((self.size * self.size, 3), np.float32)
+        image[:, 2] = 1.0
+
+        def fill(block: _Block) -> None:
+            image[block.pixel] = _in_tangent_space(block.fine @ there, block.frame @ frames, block.sign).T
+
+        with ThreadPoolExecutor(_THREADS) as pool:
+            list(pool.map(fill, self._blocks))
+        image[self.around] = image[self.nearest]
+        return image.reshape(self.size, self.size, 3)
+
+    def _fine_normals(self, fine: FloatArray) -> FloatArray:
+        """(N, 3) float32 unit normals of the fine mesh, area-weighted: its triangles are of like shape."""
+        places = np.asarray(fine, np.float32)
+        a, b, c = (np.take(places, self._fine_faces[:, k], axis=0) for k in range(3))
+        return unit_vectors(self._incidence @ cross(b - a, c - a))
+
+
+def _in_tangent_space(there: FloatArray, frames: FloatArray, sign: FloatArray) -> FloatArray:
+    """Unit coordinates (3, T) of normals (T, 3) in frames (T, 6), each a normal N and a tangent T of the light mesh.
+
+    A normal is x T + y B + z N with B = sign N x T. Neither T nor N is of unit length, nor are they square to one
+    another, between the corners: the coordinates come from the inverse of the frame, up to its positive determinant.
+    """
+    a, b, c = np.ascontiguousarray(there.T)
+    k, m, n, s, t, u = np.ascontiguousarray(frames.T)
+    to_normal, to_tangent, leaning = a * k + b * m + c * n, a * s + b * t + c * u, k * s + m * t + n * u
+    out = np.empty((3, len(there)), np.float32)
+    out[0] = to_tangent * (k * k + m * m + n * n) - to_normal * leaning
+    out[1] = sign * (a * (m * u - n * t) + b * (n * s - k * u) + c * (k * t - m * s))
+    out[2] = to_normal * (s * s + t * t + u * u) - to_tangent * leaning
+    length = np.sqrt(out[0] * out[0] + out[1] * out[1] + out[2] * out[2])
+    out[2, length == 0] = 1.0
+    out /= np.where(length == 0, np.float32(1.0), length)
+    return out
+
+
+def fit_normal_map(
+    surface: TexturedSurface,
+    fine: TriMesh,
+    size: int,
+    tile: tuple[int, int] = (0, 0),
+    margin_width: int = 8,
+    make_caster: CasterFactory = EmbreeCaster,
+) -> NormalMap:
+    """Find the place on the fine mesh of every texel of a light mesh; both in the neutral.
+
+    A texel's place is where the light mesh's normal, followed either way, first meets the fine mesh where it faces the
+    same way; where it meets nothing, the closest such place.
+
+    Parameters
+    ----------
+    surface : the light mesh. fine : the fine mesh, in the same space.
+    size : pixels along each side. tile : whole u and v of the UDIM tile.
+    margin_width : pixels around the covered ones that are filled, so that no seam shows when the map is made smaller.
+
+    Raises
+    ------
+    RetargetError : if the light mesh covers no pixel of the tile.
+
+    References
+    ----------
+    Na and Jung 2004, section 4.3.
+    """
+    texels = rasterise(surface.triangle_uvs, size, tile)
+    if not len(texels.pixel):
+        low, high = surface.uvs.min(axis=0), surface.uvs.max(axis=0)
+        raise RetargetError(
+            f"texture coordinates from ({low[0]:.3g}, {low[1]:.3g}) to ({high[0]:.3g}, {high[1]:.3g}) cover no pixel "
+            f"of UDIM tile {1001 + tile[0] + 10 * tile[1]} at {size} pixels, expected them inside it"
+        )
+    mesh = surface.mesh
+    light = place_matrix(mesh.faces[texels.face], texels.weights, len(mesh.vertices))
+    outwards = unit_vectors(light @ surface.normals(mesh.vertices))
+    face, weights = _places(light @ mesh.vertices, outwards, fine, mesh.size, make_caster)
+    lost = face < 0
+    weights[lost] = 0.0
+    space = TangentSpace(mesh.faces, surface.triangle_uvs)
+    on_fine = place_matrix(fine.faces[face], weights, len(fine.vertices)).astype(np.float32)
+    in_frame = place_matrix(space.group[texels.face], texels.weights, space.count).astype(np.float32)
+    sign = space.sign[texels.face]
+    rows = [slice(first, first + _BLOCK) for first in range(0, len(texels.pixel), _BLOCK)]
+    around, nearest = margin(texels.pixel, size, margin_width)
+    incidence = sp.csr_matrix(
+        (np.ones(fine.faces.size, np.float32), (fine.faces.ravel(), np.repeat(np.arange(len(fine.faces)), 3))),
+        shape=(len(fine.vertices), len(fine.faces)),
+    )
+    return NormalMap(
+        size,
+        texels.pixel,
+        around,
+        texels.pixel[nearest],
+        int(lost.sum()),
+        surface,
+        space,
+        fine.faces,
+        incidence,
+        tuple(_Block(texels.pixel[some], on_fine[some], in_frame[some], sign[some]) for some in rows),
+    )
+
+
+def _places(
+    places: FloatArray, normals: FloatArray, fine: TriMesh, size: float, make_caster: CasterFactory
+) -> tuple[IntArray, FloatArray]:
+    """Face (T,) and weights (T, 3) on the fine mesh for places (T, 3) with unit normals (T, 3); face -1 for none."""
+    caster, reach = make_caster(fine), _REACH * size
+    best = np.full(len(places), np.inf)
+    face, weights = np.full(len(places), -1, np.int64), np.zeros((len(places), 3))
+    for sign in (1.0, -1.0):
+        hits = caster.nearest(places, sign * normals, reach)
+        agree = np.einsum("ti,ti->t", fine.face_normals[hits.face], normals) > _AGREEMENT
+        better = hits.found & agree & (hits.distance < best)
+        best[better], face[better], weights[better] = hits.distance[better], hits.face[better], hits.weights[better]
+    lost: BoolArray = face < 0
+    if lost.any():
+        found = SurfaceFinder(fine).closest(places[lost], normals[lost], _AGREEMENT, _NEAR * size)
+        face[lost], weights[lost] = found.face, found.weights
+    return face, weights

@@ -1,0 +1,98 @@
+"""Which pixels of a texture a mesh covers, and where on the mesh they lie."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+from scipy.ndimage import distance_transform_edt
+
+from ..arrays import BoolArray, FloatArray, IntArray
+
+_BLOCK = 1 << 21
+"""Pixels that are looked at together."""
+_EDGE = 1e-9
+"""A pixel's centre counts as inside where its weights are above minus this."""
+
+
+class Texels(NamedTuple):
+    """The pixels that a mesh covers.
+
+    pixel : (T,) row after row from the bottom left, ascending. face : (T,) triangle that covers each one's centre.
+    weights : (T, 3) barycentric weights there.
+    """
+
+    pixel: IntArray
+    face: IntArray
+    weights: FloatArray
+
+
+def rasterise(uvs: FloatArray, size: int, tile: tuple[int, int] = (0, 0)) -> Texels:
+    """Pixels whose centres triangles cover; where several do, the last one has the pixel, as in Blender's bake.
+
+    Parameters
+    ----------
+    uvs : (F, 3, 2) texture coordinates, v upwards.
+    size : pixels along each side.
+    tile : whole u and v of the UDIM tile to fill.
+    """
+    owner = np.full(size * size, -1, np.int64)
+    held = np.zeros((size * size, 3))
+    places = (uvs - np.asarray(tile)) * size - 0.5
+    for rows, x, y in _candidates(places, size):
+        a, b, c = (places[rows, k] for k in range(3))
+        point = np.stack([x, y], axis=1).astype(np.float64)
+        whole = _twice_area(a, b, c)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            weights = np.stack([_twice_area(point, b, c), _twice_area(a, point, c)], axis=1) / whole[:, None]
+        weights = np.column_stack([weights, 1 - weights.sum(axis=1)])
+        inside = (weights > -_EDGE).all(axis=1)
+        pixel = y[inside] * size + x[inside]
+        # Of pixels named twice, NumPy keeps what was assigned last.
+        owner[pixel], held[pixel] = rows[inside], weights[inside]
+    covered = np.flatnonzero(owner >= 0)
+    clean = np.clip(held[covered], 0.0, None)
+    return Texels(covered, owner[covered], clean / clean.sum(axis=1, keepdims=True))
+
+
+def margin(covered: IntArray, size: int, width: int) -> tuple[IntArray, IntArray]:
+    """Pixels (M,) within `width` of covered ones, and for each the row in `covered` of the nearest."""
+    empty: BoolArray = np.ones((size, size), bool)
+    empty.ravel()[covered] = False
+    if width <= 0 or not len(covered):
+        return np.empty(0, np.int64), np.empty(0, np.int64)
+    distance, nearest = distance_transform_edt(empty, return_indices=True)
+    around = np.flatnonzero((empty & (distance <= width)).ravel())
+    at = nearest[0].ravel()[around].astype(np.int64) * size + nearest[1].ravel()[around]
+    return around, np.searchsorted(covered, at)
+
+
+def tiles(uvs: FloatArray) -> list[tuple[int, int]]:
+    """The UDIM tiles (u, v) that triangles (F, 3, 2) lie in, by their middles, ascending."""
+    found = np.unique(np.floor(uvs.mean(axis=1)).astype(np.int64), axis=0)
+    return [(int(u), int(v)) for u, v in found]
+
+
+def _candidates(places: FloatArray, size: int) -> Iterator[tuple[IntArray, IntArray, IntArray]]:
+    """Triangles and the pixels (x, y) in their boxes, triangles ascending, in blocks."""
+    low = np.clip(np.ceil(places.min(axis=1) - _EDGE), 0, size).astype(np.int64)
+    high = np.clip(np.floor(places.max(axis=1) + _EDGE), -1, size - 1).astype(np.int64)
+    extent = np.maximum(high - low + 1, 0)
+    count = extent.prod(axis=1)
+    end = np.cumsum(count)
+    first = 0
+    while first < len(count):
+        last = max(int(np.searchsorted(end, end[first] - count[first] + _BLOCK)), first + 1)
+        rows = np.repeat(np.arange(first, last), count[first:last])
+        number = np.arange(len(rows)) - np.repeat(end[first:last] - count[first:last], count[first:last])
+        number += end[first] - count[first]
+        width = extent[rows, 0]
+        yield rows, low[rows, 0] + number % width, low[rows, 1] + number // width
+        first = last
+
+
+def _twice_area(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
+    one, two = b - a, c - a
+    area: FloatArray = one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]
+    return area
