@@ -31,7 +31,7 @@ class TexturedSurface:
     def __post_init__(self) -> None:
         if np.shape(self.uvs) != (len(self.corners), 2):
             raise RetargetError(
-                f"texture coordinates have shape {np.shape(self.uvs)}, expected ({len(self.corners)}, 2): a pair per corner"
+                f"texture coordinates have shape {np.shape(self.uvs)}, expected ({len(self.corners)}, 2): one a corner"
             )
         if not np.isfinite(self.uvs).all():
             raise RetargetError("texture coordinates are NaN or infinite, expected finite ones")
