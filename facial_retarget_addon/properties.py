@@ -137,6 +137,12 @@ class FACIAL_RETARGET_PG_example(PropertyGroup):
     def _warning(self) -> str:
         return self._state("warning")
 
+    def _checked(self) -> bool:
+        from .bridge.example_states import stamp_of
+
+        task = self.id_data.facial_retarget
+        return self.fit >= 0 and task.examples_checked == stamp_of(task)
+
     source_state: EnumProperty(
         name="On the Source", items=EXAMPLE_STATES, get=_source_state, description="How far the example is there"
     )
@@ -144,6 +150,17 @@ class FACIAL_RETARGET_PG_example(PropertyGroup):
         name="On the Target", items=EXAMPLE_STATES, get=_target_state, description="How far the example is there"
     )
     warning: StringProperty(name="Warning", get=_warning, description="What is wrong with the example")
+    fit: FloatProperty(
+        name="Fit", default=-1.0, description="Share of the example's motion that the method misses; -1 if not checked"
+    )
+    leave_one_out: FloatProperty(
+        name="Without It",
+        default=-1.0,
+        description="Share of the example's motion that would be missing if only the others were known",
+    )
+    checked: BoolProperty(
+        name="Checked", get=_checked, description="Whether its figures are those of the examples as they are now"
+    )
 
 
 _STATE_NUMBERS = {state[0]: state[-1] for state in EXAMPLE_STATES}
@@ -278,6 +295,7 @@ class FACIAL_RETARGET_PG_task(PropertyGroup):
     )
     examples: CollectionProperty(type=FACIAL_RETARGET_PG_example)
     active_example: IntProperty(name="Active example")
+    examples_checked: StringProperty(name="Checked", description="Tells the examples that the figures belong to")
     sculpting: PointerProperty(type=FACIAL_RETARGET_PG_sculpting)
     cloning: PointerProperty(type=FACIAL_RETARGET_PG_cloning)
     method: EnumProperty(name="Method", items=[(name, _label(name), text) for name, text in METHODS.items()])

@@ -12,18 +12,23 @@ class FACIAL_RETARGET_UL_examples(UIList):
         self, context: Context, layout: UILayout, data: PropertyGroup, item: PropertyGroup, icon: int, active: object
     ) -> None:
         """Draw a row."""
-        split = layout.split(factor=0.5)
-        split.label(text=item.name, icon="ERROR" if item.warning else "SHAPEKEY_DATA")
-        row = split.row(align=True)
-        for side in ("source", "target"):
-            state = getattr(item, f"{side}_state")
-            row.label(icon_value=UILayout.enum_item_icon(item, f"{side}_state", state))
-            here = data.sculpting.thing is not None and (data.sculpting.example, data.sculpting.side) == (
-                item.name,
-                side.upper(),
+        row = layout.row(align=True)
+        row.label(text=item.name, icon="ERROR" if item.warning else "SHAPEKEY_DATA", translate=False)
+        if item.checked:
+            row.label(
+                text=f"{item.fit:.0%}" if item.leave_one_out < 0 else f"{item.fit:.0%} · {item.leave_one_out:.0%}"
             )
-            sculpt = row.operator("facial_retarget.sculpt_example", text="", icon="SCULPTMODE_HLT", depress=here)
-            sculpt.example, sculpt.side = item.name, side.upper()
+        for side in ("source", "target"):
+            _draw_side(row.row(align=True), data.sculpting, item, side)
+
+
+def _draw_side(row: UILayout, sculpting: PropertyGroup, item: PropertyGroup, side: str) -> None:
+    """What an example is on one face, and the button to sculpt it there."""
+    row.alignment = "RIGHT"
+    row.label(icon_value=UILayout.enum_item_icon(item, f"{side}_state", getattr(item, f"{side}_state")))
+    here = sculpting.thing is not None and sculpting.example == item.name and sculpting.side == side.upper()
+    sculpt = row.operator("facial_retarget.sculpt_example", text="", icon="SCULPTMODE_HLT", depress=here)
+    sculpt.example, sculpt.side = item.name, side.upper()
 
 
 class FACIAL_RETARGET_PT_examples(Step, Panel):
@@ -44,11 +49,11 @@ class FACIAL_RETARGET_PT_examples(Step, Panel):
             where = {"example": task.sculpting.example, "face": task.sculpting.thing.name}
             row.label(text=filled("{example} on {face}", **where), icon="SCULPTMODE_HLT", translate=False)
             row.operator("facial_retarget.stop_sculpting", icon="CHECKMARK")
-        split = layout.split(factor=0.5)
-        split.label(text="Example")
-        sides = split.row()
-        sides.label(text="Source")
-        sides.label(text="Target")
+        layout.label(
+            text="Neutral: the Basis of both faces"
+            if task.source_neutral == "BASIS"
+            else "Neutral: the source's frame, the target's Basis"
+        )
         row = layout.row()
         row.template_list("FACIAL_RETARGET_UL_examples", "", task, "examples", task, "active_example", rows=6)
         buttons = row.column(align=True)
@@ -56,9 +61,28 @@ class FACIAL_RETARGET_PT_examples(Step, Panel):
         buttons.operator("facial_retarget.remove_example", text="", icon="REMOVE")
         if task.active_example in range(len(task.examples)):
             _draw_chosen(layout, context, task.examples[task.active_example])
+        layout.operator("facial_retarget.check_examples")
 
 
 def _draw_chosen(layout: UILayout, context: Context, example: PropertyGroup) -> None:
-    """What is wrong with the chosen example."""
+    """What is wrong with the chosen example, how well it is met, and what can be done with it on either face."""
     if example.warning:
         draw_text(layout, context, example.warning, "ERROR")
+    if example.checked:
+        draw_text(layout, context, filled("Missed by {fit:.1%} of its motion", fit=example.fit))
+    if example.checked and example.leave_one_out >= 0:
+        draw_text(layout, context, filled("Without it {share:.0%} would be missing", share=example.leave_one_out))
+    columns = layout.row()
+    for side, label in (("SOURCE", "Source"), ("TARGET", "Target")):
+        column = columns.column(align=True)
+        column.label(text=label)
+        for kind, options in (
+            ("sculpt_example", {"text": "Sculpt", "icon": "SCULPTMODE_HLT"}),
+            ("rough_out", {"text": "From Points"}),
+            ("rough_out", {"text": "From Other Face"}),
+            ("scale_example", {}),
+        ):
+            button = column.operator(f"facial_retarget.{kind}", **options)
+            button.example, button.side = example.name, side
+            if kind == "rough_out":
+                button.way = "POINTS" if options["text"] == "From Points" else "CLONE"

@@ -55,7 +55,7 @@ def read_examples(
     on_source: dict[str, FloatArray] = {}
     on_target: dict[str, FloatArray] = {}
     for example in task.examples:
-        ours, theirs = (_displacement(head, example.name) for head in (source, target))
+        ours, theirs = (example_moves(head, example.name) for head in (source, target))
         here, there = (is_sculpted(moves, head.face.mesh.size) for moves, head in ((ours, source), (theirs, target)))
         if here and there:
             on_source[example.name], on_target[example.name] = ours, theirs
@@ -67,7 +67,13 @@ def read_examples(
     return on_source, on_target
 
 
-def _displacement(head: Head, name: str) -> FloatArray:
+def example_moves(head: Head, name: str) -> FloatArray:
+    """(V, 3) float64 displacements of an example on a head, in its coordinates.
+
+    Raises
+    ------
+    RetargetError : if none of its objects has the shape key.
+    """
     if name not in head.key_names():
         raise RetargetError(f"object {head.name!r} has no shape key {name!r}, expected one for the example")
     moves = np.zeros((head.starts[-1], 3))

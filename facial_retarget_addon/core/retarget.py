@@ -110,3 +110,25 @@ def level_motions(
     retargeter = cast(LevelRetargeter, fit(method, problem, settings, progress_part(progress, 0.0, 0.9)))
     progress(0.9, "taking the frame apart")
     return retargeter.levels(frame[None])
+
+
+def example_figures(
+    method: str, problem: Problem, settings: Settings, progress: Progress = no_progress
+) -> list[dict[str, Any]]:
+    """How well a method meets each example: its name, `fit`, and `leave_one_out` where there are several.
+
+    Both are shares of the example's motion, as norms over the target's area: what is missing from it once it has been
+    learned, and what would be if only the others were known.
+
+    Raises
+    ------
+    RetargetError : as `retarget`, and if nothing is learned from examples.
+    """
+    if not problem.source.examples:
+        raise RetargetError("no example is sculpted, expected at least one that both faces show")
+    if wrong := faults(problem, None, settings):
+        raise RetargetError("; ".join(wrong))
+    figures: list[dict[str, Any]] = fit(method, problem, settings, progress).report["examples"]
+    if not figures:
+        raise RetargetError(f"method {method!r} learns nothing from examples as it is set, expected one that does")
+    return figures
