@@ -15,6 +15,7 @@ from time import monotonic
 from typing import Any
 
 import bpy
+import numpy as np
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 
 OUT = Path()
@@ -25,6 +26,8 @@ ARGUMENTS: list[str] = []
 Turns = Generator[None, None, Any]
 TURN = 0.01
 """Seconds between two turns, at least: a redraw takes longer."""
+PANELS_MOVE = 0.5
+"""Seconds, at least, in which panels that open and close slide to their places."""
 _mouse = [0, 0]
 
 
@@ -72,6 +75,13 @@ def log(*words: object) -> None:
 def wait(turns: int = 5) -> Turns:
     """Give Blender some turns."""
     for _ in range(turns):
+        yield
+
+
+def pause(seconds: float) -> Turns:
+    """Give Blender turns for a while: for what moves by the clock."""
+    end = monotonic() + seconds
+    while monotonic() < end:
         yield
 
 
@@ -282,6 +292,69 @@ def press_button(what: str, kind: str = "UI", editor: bpy.types.Area | None = No
     yield from click(x, y)
 
 
+def open_section(title: str, tab: str = "Retarget", editor: bpy.types.Area | None = None) -> Turns:
+    """Open one panel of the sidebar and close the others."""
+    editor = editor or area()
+    panels = _panels(tab, editor)
+    place = [panel.bl_label for panel in panels].index(title)
+    parents = {getattr(panel, "bl_parent_id", "") for panel in bpy.types.Panel.__subclasses__()}
+    # Ctrl and a click on a header close all other panels; on that of a panel with children they open and close those.
+    childless = next(i for i, panel in enumerate(panels) if panel.__name__ not in parents)
+    with override(editor, "UI"):
+        bpy.ops.view2d.reset()
+    yield from wait()
+    yield from click(*_headers(editor)[childless], ctrl=True)
+    yield from pause(PANELS_MOVE)
+    for other in {childless, place}:
+        if _is_open(other, editor) != (other == place):
+            yield from click(*_headers(editor)[other])
+            yield from pause(PANELS_MOVE)
+    assert _is_open(place, editor), f"{title} does not open"
+
+
+def _panels(tab: str, editor: bpy.types.Area) -> list[type[bpy.types.Panel]]:
+    """The panels with headers that a tab shows, from top to bottom."""
+    with override(editor, "UI"):
+        found = [
+            panel
+            for panel in bpy.types.Panel.__subclasses__()
+            if getattr(panel, "bl_category", "") == tab
+            and not getattr(panel, "bl_parent_id", "")
+            and "HIDE_HEADER" not in getattr(panel, "bl_options", ())
+            and (not hasattr(panel, "poll") or panel.poll(bpy.context))
+        ]
+    return sorted(found, key=lambda panel: getattr(panel, "bl_order", 0))
+
+
+def _is_open(place: int, editor: bpy.types.Area) -> bool:
+    """Whether the panel there is open: then the arrow at the left of its header points down, and is wider than high."""
+    shown, scale = region("UI", editor), bpy.context.preferences.system.ui_scale
+    pixels = picture()
+    row, reach = len(pixels) - int(_headers(editor)[place][1]), int(9 * scale)
+    left = int(shown.x + 6 * scale)
+    arrow = pixels[row - reach : row + reach, left : left + int(16 * scale)].astype(int)
+    down, across = np.nonzero(arrow - np.median(arrow) > 40)
+    return np.ptp(across) > np.ptp(down)
+
+
+def _headers(editor: bpy.types.Area) -> list[tuple[float, float]]:
+    """Places of the headers of the sidebar's panels from top to bottom, seen by the dots at their right ends."""
+    shown = region("UI", editor)
+    pixels = picture()[:, shown.x : shown.x + shown.width]
+    scale = bpy.context.preferences.system.ui_scale
+    left = int(shown.width - 60 * scale)  # the tabs stand at the right of the panels
+    dots = pixels[:, left - int(20 * scale) : left + int(20 * scale)].astype(int)
+    bright = (np.abs(dots - np.median(dots, axis=1, keepdims=True)) > 20).sum(axis=1)
+    plain = bright == 0
+    rows = [
+        row
+        for row in range(4, len(bright) - 8)
+        if 4 <= bright[row] <= 9 and 4 <= bright[row + 3] <= 9 and plain[row - 4 : row].all() and plain[row + 6]
+    ]
+    inside = [row for row in rows if shown.y < len(pixels) - row < shown.y + shown.height]
+    return [(shown.x + 0.5 * shown.width, len(pixels) - row - 2) for row in inside]
+
+
 def scroll(shown: bpy.types.Region, turns: int = 10) -> Turns:
     """Turn the mouse's wheel over a region."""
     yield from move(shown.x + 0.5 * shown.width, shown.y + 0.5 * shown.height)
@@ -310,6 +383,13 @@ def screenshot(name: str) -> Path:
     subprocess.run(["import", "-window", "root", path], check=True)
     log("screenshot", path)
     return path
+
+
+def picture() -> np.ndarray:
+    """(height, width) uint8: how bright the window's pixels are, the top row first."""
+    raw = subprocess.run(["import", "-window", "root", "-depth", "8", "gray:-"], check=True, stdout=subprocess.PIPE)
+    shown = window()
+    return np.frombuffer(raw.stdout, np.uint8).reshape(shown.height, shown.width)
 
 
 def reports() -> Iterator[str]:

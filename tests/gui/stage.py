@@ -52,6 +52,46 @@ def choose(thing: bpy.types.Object) -> None:
     bpy.context.view_layer.update()
 
 
+def shown(thing: bpy.types.Object) -> np.ndarray:
+    """(V, 3) positions of an object as it looks at the scene's frame, in its own coordinates."""
+    mesh = thing.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+    flat = np.empty(3 * len(mesh.vertices), np.float32)
+    mesh.vertices.foreach_get("co", flat)
+    return flat.reshape(-1, 3)
+
+
+def snapshot() -> dict[str, object]:
+    """What an operator that is stopped or undone must not have changed."""
+    scene = bpy.context.scene
+    return {
+        "frame": (scene.frame_current, scene.frame_subframe),
+        "objects": sorted(thing.name for thing in bpy.data.objects),
+        "meshes": sorted(mesh.name for mesh in bpy.data.meshes),
+        "actions": sorted(action.name for action in bpy.data.actions),
+        "keys": {
+            f"{key.name}/{block.name}": (block.value, np.array([point.co for point in block.points]).sum())
+            for key in bpy.data.shape_keys
+            for block in key.key_blocks
+        },
+        "texts": sorted(text.name for text in bpy.data.texts),
+        "points": {
+            f"{thing.name}/{point.name}": (*point.vertices, *point.weights)
+            for thing in bpy.data.objects
+            for point in thing.facial_retarget.points
+        },
+        "examples": [example.name for example in scene.facial_retarget.examples],
+    }
+
+
+def check_unchanged(before: dict[str, object]) -> None:
+    """Fail if the scene is not what `snapshot` has told before."""
+    now = snapshot()
+    for name, was in before.items():
+        assert name == "keys" or now[name] == was, f"{name}: {str(was)[:300]} -> {str(now[name])[:300]}"
+    changed = set(before["keys"].items()) ^ set(now["keys"].items())
+    assert not changed, f"keys: {sorted(changed)[:9]}"
+
+
 def point_places(thing: bpy.types.Object) -> dict[str, np.ndarray]:
     """Name -> (3,) place in the scene of each of an object's feature points, on its neutral."""
     points = part("bridge.points")
