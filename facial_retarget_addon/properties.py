@@ -271,6 +271,22 @@ class FACIAL_RETARGET_PG_cloning(PropertyGroup):
     )
 
 
+class FACIAL_RETARGET_PG_overlay(PropertyGroup):
+    """What is drawn over the faces in the 3D views."""
+
+    show_points: BoolProperty(
+        name="Points",
+        default=True,
+        description="Show the feature points of source, target and the active face; names appear under the mouse",
+    )
+    show_names: BoolProperty(name="All Names", description="Show the names of all points that face the view")
+    show_diagram: BoolProperty(
+        name="Diagram",
+        default=True,
+        description="Show where on a face the point lies whose turn it is, in a corner of the view",
+    )
+
+
 class FACIAL_RETARGET_PG_task(PropertyGroup):
     """One retargeting task: the panel, and what a job file holds."""
 
@@ -298,6 +314,7 @@ class FACIAL_RETARGET_PG_task(PropertyGroup):
     examples_checked: StringProperty(name="Checked", description="Tells the examples that the figures belong to")
     sculpting: PointerProperty(type=FACIAL_RETARGET_PG_sculpting)
     cloning: PointerProperty(type=FACIAL_RETARGET_PG_cloning)
+    overlay: PointerProperty(type=FACIAL_RETARGET_PG_overlay)
     method: EnumProperty(name="Method", items=[(name, _label(name), text) for name, text in METHODS.items()])
     report: StringProperty(name="Report", subtype="FILE_PATH", description="Where to write the figures (.json)")
     page: StringProperty(name="Page", subtype="FILE_PATH", description="Where to write the page to look at (.html)")
@@ -320,6 +337,7 @@ CLASSES = (
     FACIAL_RETARGET_PG_sculpting,
     *SETTINGS_GROUPS.values(),
     FACIAL_RETARGET_PG_cloning,
+    FACIAL_RETARGET_PG_overlay,
     FACIAL_RETARGET_PG_task,
 )
 

@@ -14,6 +14,7 @@ from . import (
     more,
     motion,
     next_step,
+    overlay,
     report,
 )
 
@@ -23,6 +24,8 @@ CLASSES = (
     feature_points.FACIAL_RETARGET_PT_points,
     head_parts.FACIAL_RETARGET_UL_parts,
     head_parts.FACIAL_RETARGET_PT_parts,
+    overlay.FACIAL_RETARGET_PT_shown,
+    overlay.FACIAL_RETARGET_PT_overlay,
     examples.FACIAL_RETARGET_UL_examples,
     examples.FACIAL_RETARGET_PT_examples,
     method.FACIAL_RETARGET_PT_retarget,

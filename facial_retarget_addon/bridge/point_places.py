@@ -46,6 +46,21 @@ def world_places(thing: Object, depsgraph: Depsgraph, which: str = "points") -> 
     return points.names, own @ matrix[:3, :3].T + matrix[:3, 3]
 
 
+def world_normals(thing: Object, depsgraph: Depsgraph, which: str = "points") -> FloatArray:
+    """(P, 3) normals of the evaluated surface at the points, in world space and of no particular length; 0 where a
+    modifier has renumbered the vertices. The parameters and errors are those of `world_places`.
+    """
+    points = read_points(thing) if which == "points" else read_proposals(thing)
+    shown = thing.evaluated_get(depsgraph).data
+    if not len(points) or not _order_kept(thing, len(shown.vertices)):
+        return np.zeros((len(points), 3))
+    flat = np.empty(3 * len(shown.vertices), np.float32)
+    shown.vertex_normals.foreach_get("vector", flat)
+    normals = points.positions(flat.reshape(-1, 3).astype(np.float64))
+    # What is mirrored keeps its outside: a normal goes through the inverse, transposed.
+    return normals @ np.linalg.inv(np.array(thing.matrix_world, np.float64)[:3, :3])
+
+
 def _order_kept(thing: Object, shown: int) -> bool:
     count = len(thing.data.vertices)
     active = {modifier.type for modifier in thing.modifiers if modifier.show_viewport}

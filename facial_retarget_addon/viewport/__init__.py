@@ -1,8 +1,8 @@
 """What an artist handles and sees in the 3D view: the feature-point tool, and what is drawn over the faces."""
 
-from types import ModuleType
+from . import changes, hover, overlay
 
-PARTS: tuple[ModuleType, ...] = ()
+PARTS = (changes, hover, overlay)
 
 
 def register() -> None:

@@ -1,0 +1,110 @@
+"""What is drawn over the 3D views: marks of the points, their names, and the diagram of a face."""
+
+from __future__ import annotations
+
+import bpy
+import gpu
+from bpy.app.handlers import persistent
+from bpy.types import Context, SpaceView3D
+
+from ..core.point_sets import point_label
+from .diagram import draw_diagram
+from .faces import FaceMarks, face_marks, forget, shown_faces
+from .hover import hovered
+from .labels import Label, draw_labels, spread_labels
+from .marks import draw_marks
+from .projection import screen_places
+
+_handles: list[object] = []
+
+
+def _shows(context: Context) -> bool:
+    """Whether the view shows overlays at all."""
+    return context.space_data.overlay.show_overlays
+
+
+def _draw_places() -> None:
+    """In the world: the marks."""
+    context = bpy.context
+    wanted = context.scene.facial_retarget.overlay
+    if not (wanted.show_points and _shows(context)):
+        return
+    view, projection = gpu.matrix.get_model_view_matrix(), gpu.matrix.get_projection_matrix()
+    for thing in shown_faces(context):
+        marks = face_marks(context, thing)
+        if len(marks.names):
+            hot = hovered().row if hovered().thing == thing.session_uid else -1
+            size = marks.mark_size(context, max(thing.dimensions))
+            draw_marks(marks.batch, view, projection, size, hot, flat=False)
+
+
+def _draw_pixels() -> None:
+    """On the region: names, and the diagram."""
+    context = bpy.context
+    wanted = context.scene.facial_retarget.overlay
+    if not _shows(context):
+        return
+    scale = context.preferences.system.ui_scale
+    if wanted.show_points:
+        _draw_names(context, scale, wanted.show_names)
+    if wanted.show_diagram:
+        draw_diagram(context)
+
+
+def _draw_names(context: Context, scale: float, every: bool) -> None:
+    """The name of the point under the mouse in full, and the short ones of all that we see if they are wanted."""
+    full, short, boxes = [], [], []
+    for thing in shown_faces(context):
+        marks = face_marks(context, thing)
+        hot = hovered().row if hovered().thing == thing.session_uid else -1
+        if not len(marks.names) or not (every or 0 <= hot < len(marks.names)):
+            continue
+        at, ahead = screen_places(context, marks.places)
+        seen = ahead & marks.facing(context)
+        size = marks.mark_size(context, max(thing.dimensions))
+        for row in seen.nonzero()[0].tolist():
+            x, y = at[row].tolist()
+            if row == hot:
+                full.append(Label(_full_name(marks, row), x, y, size + 4 * scale))
+            elif every:
+                short.append(Label(marks.names[row], x, y, size + 4 * scale))
+                boxes.append((x - size, y - size, x + size, y + size))
+    region = context.region
+    placed = list(spread_labels(full, (), scale, region.width, region.height))
+    boxes += [box for box, _ in placed]
+    placed += spread_labels(short, boxes, scale, region.width, region.height)
+    draw_labels(placed, scale)
+
+
+def _full_name(marks: FaceMarks, row: int) -> str:
+    """Number, label, and what is wrong with a point."""
+    name = marks.names[row]
+    label = point_label(name)
+    text = label if name in (label, "") or not name[0].isdigit() else f"{name} {label}"
+    proposed = " (proposed)" if row >= marks.placed else ""
+    return f"{text}{proposed}" if name not in marks.doubts else f"{text}: {marks.doubts[name]}"
+
+
+@persistent
+def _forget(*_: object) -> None:
+    forget()
+
+
+def register() -> None:
+    """Draw in all 3D views; `gpu` needs a window."""
+    if bpy.app.background:
+        return
+    add = SpaceView3D.draw_handler_add
+    _handles.append(add(_draw_places, (), "WINDOW", "POST_VIEW"))
+    _handles.append(add(_draw_pixels, (), "WINDOW", "POST_PIXEL"))
+    bpy.app.handlers.load_pre.append(_forget)
+
+
+def unregister() -> None:
+    """Draw no longer."""
+    if bpy.app.background:
+        return
+    bpy.app.handlers.load_pre.remove(_forget)
+    while _handles:
+        SpaceView3D.draw_handler_remove(_handles.pop(), "WINDOW")
+    forget()
