@@ -38,6 +38,10 @@ class FACIAL_RETARGET_PG_feature_point(PropertyGroup):
     weights: FloatVectorProperty(
         name="Weights", size=3, default=(1.0, 0.0, 0.0), precision=4, description="How much of each vertex"
     )
+    topology: StringProperty(description="The topology on which these vertices count, empty if it was never noted")
+    anchored: BoolProperty(description="The anchor says where the point is when the topology changes")
+    anchor: FloatVectorProperty(size=3, subtype="XYZ", description="Its place on the mesh at rest")
+    anchor_normal: FloatVectorProperty(size=3, subtype="XYZ", description="The surface's normal there")
 
 
 class FACIAL_RETARGET_PG_point_name(PropertyGroup):

@@ -14,10 +14,11 @@ class FACIAL_RETARGET_OT_remove_point(OnFace, Operator):
 
     def execute(self, context: Context) -> set[str]:
         """Remove the point that is chosen in the list."""
+        from ..facial_retarget_addon.bridge.points import remove_point
+
         face = context.active_object.facial_retarget
         if face.active_point not in range(len(face.points)):
             self.report({"ERROR"}, f"{context.active_object.name} has no feature point to remove")
             return {"CANCELLED"}
-        face.points.remove(face.active_point)
-        face.active_point = max(face.active_point - 1, 0)
+        remove_point(context.active_object, face.points[face.active_point].name)
         return {"FINISHED"}

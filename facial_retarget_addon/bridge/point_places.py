@@ -7,7 +7,7 @@ from bpy.types import Depsgraph, Object
 
 from ..core.arrays import FloatArray
 from .meshes import read_positions
-from .points import read_points, read_proposals
+from .points import read_proposals, settled_points
 
 LOSES_ORDER = {
     *("BEVEL", "BOOLEAN", "BUILD", "DECIMATE", "EXPLODE", "FLUID", "MASK", "NODES", "OCEAN", "REMESH", "SKIN"),
@@ -19,8 +19,9 @@ LOSES_ORDER = {
 def world_places(thing: Object, depsgraph: Depsgraph, which: str = "points") -> tuple[tuple[str, ...], FloatArray]:
     """Names and places (P, 3), in world space, of the points on the evaluated surface.
 
-    Where a modifier has renumbered the vertices, a point lies where the surface is closest to its place before all
-    modifiers.
+    Points that have lost their surface are where it was. In Edit Mode, where Blender shows no evaluated surface, there
+    are none. Where a modifier has renumbered the vertices, a point lies where the surface is closest to its place
+    before all modifiers.
 
     Parameters
     ----------
@@ -28,9 +29,11 @@ def world_places(thing: Object, depsgraph: Depsgraph, which: str = "points") -> 
 
     Raises
     ------
-    RetargetError : as for `read_points`.
+    RetargetError : as for `settled_points`.
     """
-    points = read_points(thing) if which == "points" else read_proposals(thing)
+    if thing.data.is_editmode:
+        return (), np.empty((0, 3))
+    points = settled_points(thing).points if which == "points" else read_proposals(thing)
     if not len(points):
         return (), np.empty((0, 3))
     shown = thing.evaluated_get(depsgraph)

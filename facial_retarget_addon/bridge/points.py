@@ -12,30 +12,52 @@ from ..core.closest_point import SurfaceFinder
 from ..core.errors import RetargetError
 from ..core.points import FeaturePoints
 from .meshes import from_face_space, neutral_mesh, to_face_space
+from .point_anchors import Settled, anchor_points, is_stale, renew_rest, settle, topology_of
 
 
 def read_points(thing: Object) -> FeaturePoints:
-    """The feature points of an object.
+    """The feature points of an object, on its mesh as it is now.
 
     Raises
     ------
-    RetargetError : if a name appears twice, a vertex is not there, or weights do not add up to anything.
+    RetargetError : if a name appears twice, a vertex is not there, weights do not add up to anything, or the surface
+        below a point is gone since it was placed.
     """
-    return _read(thing, thing.facial_retarget.points)
+    settled = settled_points(thing)
+    if settled.lost:
+        raise RetargetError(
+            f"the mesh of object {thing.name!r} has changed, and the surface below feature points "
+            f"{', '.join(map(repr, settled.lost))} is gone; press Refresh Points, then place them anew or skip them"
+        )
+    return settled.points
+
+
+def settled_points(thing: Object) -> Settled:
+    """The feature points of an object on its mesh as it is now, and what became of them if it has changed.
+
+    Nothing is written. RetargetError as for `read_points`, but for points that are lost.
+    """
+    stored = list(thing.facial_retarget.points)
+    topology = topology_of(thing.data)
+    stale = [is_stale(point, topology) for point in stored]
+    points = _read(thing, stored, stale)
+    return settle(thing, points, stored, stale) if any(stale) else Settled(points, {}, ())
 
 
 def read_proposals(thing: Object) -> FeaturePoints:
-    """The proposed points of an object; RetargetError as for `read_points`."""
-    return _read(thing, thing.facial_retarget.proposals)
+    """The proposed points of an object, but for those of a topology that it no longer has."""
+    topology = topology_of(thing.data)
+    stored = [point for point in thing.facial_retarget.proposals if not is_stale(point, topology)]
+    return _read(thing, stored, [False] * len(stored))
 
 
-def _read(thing: Object, stored: bpy_prop_collection) -> FeaturePoints:
+def _read(thing: Object, stored: list[PropertyGroup], stale: list[bool]) -> FeaturePoints:
     names = tuple(point.name for point in stored)
     vertices = np.array([point.vertices[:] for point in stored], np.int64).reshape(-1, 3)
     weights = np.array([point.weights[:] for point in stored], np.float64).reshape(-1, 3)
     count = len(thing.data.vertices)
-    for name, corners, parts in zip(names, vertices, weights, strict=True):
-        if corners.max() >= count:
+    for name, corners, parts, old in zip(names, vertices, weights, stale, strict=True):
+        if corners.max() >= count and not old:
             raise RetargetError(
                 f"feature point {name!r} of object {thing.name!r} lies on vertex {corners.max()}, "
                 f"expected 0 to {count - 1}"
@@ -46,6 +68,27 @@ def _read(thing: Object, stored: bpy_prop_collection) -> FeaturePoints:
     return FeaturePoints(names, vertices, weights / weights.sum(axis=1, keepdims=True))
 
 
+def refresh_points(thing: Object) -> Settled:
+    """Put the feature points of an object on its mesh as it is now, and note their anchors anew.
+
+    Points that are lost become proposals at the nearest place.
+    """
+    settled = settled_points(thing)
+    kept = settled.points.subset([name for name in settled.points.names if name not in settled.lost])
+    face = thing.facial_retarget
+    renew_rest(thing.data)
+    for name in settled.lost:
+        face.points.remove(face.points.find(name))
+    for point, vertices, weights in zip(face.points, kept.vertices, kept.weights, strict=True):
+        _put(point, vertices, weights)
+    anchor_points(thing, face.points)
+    fresh = read_proposals(thing)
+    lost = settled.points.subset([name for name in settled.lost if name not in fresh.names])
+    write_proposals(thing, fresh.joined(lost))
+    face.active_point = max(min(face.active_point, len(face.points) - 1), 0)
+    return settled
+
+
 def write_points(thing: Object, points: FeaturePoints) -> None:
     """Replace the feature points of an object; what was proposed or skipped of these names no longer is."""
     face = thing.facial_retarget
@@ -54,44 +97,70 @@ def write_points(thing: Object, points: FeaturePoints) -> None:
         _append(face.points, name, vertices, weights)
         _drop(face.proposals, name)
         _drop(face.skipped, name)
+    anchor_points(thing, face.points)
 
 
 def write_proposals(thing: Object, proposals: FeaturePoints) -> None:
     """Replace the proposed points of an object; names that are placed are left out."""
     face = thing.facial_retarget
+    topology = topology_of(thing.data)
     placed = set(face.points.keys())
     face.proposals.clear()
     for name, vertices, weights in zip(proposals.names, proposals.vertices, proposals.weights, strict=True):
         if name not in placed:
             _append(face.proposals, name, vertices, weights)
+            face.proposals[-1].topology = topology
 
 
 def place_point(thing: Object, name: str, vertices: Sequence[int], weights: Sequence[float]) -> None:
-    """Add a feature point, or move the one of this name, and make it the active one.
-
-    What was proposed or skipped of this name no longer is.
+    """Add a feature point, or move the one of this name, and make it the active one; see `place_points`.
 
     Parameters
     ----------
     vertices : (3,) that hold it.
     weights : (3,) of these, adding up to 1.
+    """
+    place_points(thing, FeaturePoints((name,), np.array([vertices]), np.array([weights])))
+    thing.facial_retarget.active_point = thing.facial_retarget.points.find(name)
+
+
+def place_points(thing: Object, points: FeaturePoints) -> None:
+    """Add feature points, or move those of these names.
+
+    What was proposed or skipped of these names no longer is. The others are put on the mesh as it is now.
 
     Raises
     ------
-    RetargetError : if the name is empty.
+    RetargetError : if a name is empty, or the mesh has changed and other points are lost; nothing is placed then.
     """
     face = thing.facial_retarget
-    if not name:
+    if "" in points.names:
         raise RetargetError("the new feature point has no name, expected an FDP number or a free name")
-    row = face.points.find(name)
-    if row < 0:
-        _append(face.points, name, vertices, weights)
-        row = len(face.points) - 1
-    else:
-        _put(face.points[row], vertices, weights)
-    _drop(face.proposals, name)
-    _drop(face.skipped, name)
-    face.active_point = row
+    _refresh_others(thing, set(points.names))
+    for name, vertices, weights in zip(points.names, points.vertices, points.weights, strict=True):
+        row = face.points.find(name)
+        if row < 0:
+            _append(face.points, name, vertices, weights)
+        else:
+            _put(face.points[row], vertices, weights)
+        _drop(face.proposals, name)
+        _drop(face.skipped, name)
+    unknown = [point.name for point in face.points if not point.topology]
+    anchor_points(thing, [face.points[name] for name in dict.fromkeys((*points.names, *unknown))])
+
+
+def _refresh_others(thing: Object, placed: set[str]) -> None:
+    """Bring the points that are not about to be placed onto the mesh as it is now, if it has changed."""
+    face = thing.facial_retarget
+    topology = topology_of(thing.data)
+    if not thing.data.is_editmode and any(is_stale(point, topology) for point in face.points):
+        lost = [name for name in settled_points(thing).lost if name not in placed]
+        if lost:
+            raise RetargetError(
+                f"the mesh of object {thing.name!r} has changed, and the surface below feature points "
+                f"{', '.join(map(repr, lost))} is gone; press Refresh Points first"
+            )
+        refresh_points(thing)
 
 
 def remove_point(thing: Object, name: str) -> None:

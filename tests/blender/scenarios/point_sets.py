@@ -77,5 +77,9 @@ thing.modifiers.new("light", "DECIMATE").ratio = 0.6
 key.value = 0.0
 thing.matrix_world = Matrix()
 assert np.linalg.norm(world() - expected, axis=1).max() < 0.1
+bpy.ops.object.mode_set(mode="EDIT")
+assert world().shape == (0, 3)
+bpy.ops.object.mode_set(mode="OBJECT")
+assert world().shape == (3, 3)
 thing.facial_retarget.points.clear()
 assert world().shape == (0, 3)

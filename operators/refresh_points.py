@@ -1,0 +1,37 @@
+"""Put the feature points of the active face back onto a mesh that has changed."""
+
+from bpy.types import Context, Operator
+
+from .errors import tells_user
+from .polls import OnFace
+
+SHOWN = 6
+"""Points that a message names."""
+
+
+class FACIAL_RETARGET_OT_refresh_points(OnFace, Operator):
+    """Put the feature points back onto a mesh that was cut or merged, and say which ones lost their surface"""
+
+    bl_idname = "facial_retarget.refresh_points"
+    bl_label = "Refresh Points"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @tells_user
+    def execute(self, context: Context) -> set[str]:
+        """Refresh, and report."""
+        from ..facial_retarget_addon.bridge.points import refresh_points
+
+        thing = context.active_object
+        settled = refresh_points(thing)
+        said = []
+        if settled.moved:
+            worst = sorted(settled.moved, key=settled.moved.get, reverse=True)
+            shown = ", ".join(f"{name} by {settled.moved[name]:.3g}" for name in worst[:SHOWN])
+            said.append(f"{len(worst)} moved with the surface ({shown}{', ...' if len(worst) > SHOWN else ''})")
+        if settled.lost:
+            said.append(f"{', '.join(settled.lost)} lost their surface and are only proposed now")
+        what = "; ".join(said) or "all are where they were"
+        self.report(
+            {"WARNING" if settled.lost else "INFO"}, f"{thing.name}: {len(thing.facial_retarget.points)} points; {what}"
+        )
+        return {"FINISHED"}
