@@ -1,0 +1,1 @@
+"""Many frames as few shape keys and their curves."""
