@@ -18,7 +18,7 @@ from bpy.props import (
     PointerProperty,
     StringProperty,
 )
-from bpy.types import Object, PropertyGroup, Scene
+from bpy.types import Object, PropertyGroup, Scene, WindowManager
 
 from .core.methods import METHODS
 from .core.methods.settings import SETTINGS
@@ -327,6 +327,16 @@ class FACIAL_RETARGET_PG_task(PropertyGroup):
     )
 
 
+class FACIAL_RETARGET_PG_work(PropertyGroup):
+    """Long work that is under way: what the panel shows of it, and how its button stops it."""
+
+    running: BoolProperty(name="Running", description="Whether something is being computed")
+    stop: BoolProperty(name="Stop", description="Whether the artist has asked to stop")
+    doing: StringProperty(name="Doing", description="What is being computed")
+    share: FloatProperty(name="Share", min=0.0, max=1.0, description="How much of it is done")
+    left: FloatProperty(name="Left", min=0.0, description="Seconds that it still takes, 0 where that is not known")
+
+
 for _method, _group in SETTINGS_GROUPS.items():
     FACIAL_RETARGET_PG_task.__annotations__[_method] = PointerProperty(type=_group)
 
@@ -343,20 +353,23 @@ CLASSES = (
     FACIAL_RETARGET_PG_cloning,
     FACIAL_RETARGET_PG_overlay,
     FACIAL_RETARGET_PG_task,
+    FACIAL_RETARGET_PG_work,
 )
 
 _register_classes, _unregister_classes = bpy.utils.register_classes_factory(CLASSES)
 
 
 def register() -> None:
-    """Hang the groups on objects and scenes."""
+    """Hang the groups on objects, scenes and the window manager."""
     _register_classes()
     Object.facial_retarget = PointerProperty(type=FACIAL_RETARGET_PG_face)
     Scene.facial_retarget = PointerProperty(type=FACIAL_RETARGET_PG_task)
+    WindowManager.facial_retarget = PointerProperty(type=FACIAL_RETARGET_PG_work, options={"SKIP_SAVE"})
 
 
 def unregister() -> None:
     """Take the groups off again; their data stays in the .blend."""
+    del WindowManager.facial_retarget
     del Scene.facial_retarget
     del Object.facial_retarget
     _unregister_classes()

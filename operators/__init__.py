@@ -25,6 +25,7 @@ from . import (
     shape_files,
     show_base,
     show_levels,
+    stop,
 )
 
 CLASSES = (
@@ -63,6 +64,7 @@ CLASSES = (
     fap_controls.FACIAL_RETARGET_OT_remove_controls,
     motion.FACIAL_RETARGET_OT_import_motion,
     motion.FACIAL_RETARGET_OT_export_motion,
+    stop.FACIAL_RETARGET_OT_stop,
 )
 
 register, unregister = bpy.utils.register_classes_factory(CLASSES)

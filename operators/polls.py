@@ -4,7 +4,10 @@ from bpy.types import Context
 
 
 def in_mode(cls: type, context: Context, modes: tuple[str, ...] = ("OBJECT",)) -> bool:
-    """Whether Blender is in one of the modes; the tooltip says it if not."""
+    """Whether nothing is being computed and Blender is in one of the modes; the tooltip says it if not."""
+    if context.window_manager.facial_retarget.running:
+        cls.poll_message_set("Wait for what is being computed, or stop it with Esc")
+        return False
     if context.mode not in modes:
         cls.poll_message_set("Switch to Object Mode")
         return False

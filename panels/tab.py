@@ -21,6 +21,11 @@ class RetargetTab:
     bl_region_type = "UI"
     bl_category = "Retarget"
 
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        """While something is being computed only the panel on top stands, with the button that stops it."""
+        return not context.window_manager.facial_retarget.running
+
 
 class Step(RetargetTab):
     """A panel that is one of `guide.STEPS`: its header shows how far the step is."""

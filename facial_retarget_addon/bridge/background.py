@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Generator
-from concurrent.futures import ThreadPoolExecutor, TimeoutError
+from concurrent.futures import Future, TimeoutError
 from contextlib import closing
+from threading import Event, Thread
 from typing import TypeVar
 
 from ..core.arrays import Progress
@@ -16,33 +17,57 @@ Steps = Generator[tuple[float, str], None, T]
 
 PATIENCE = 0.02
 """Seconds that one step waits for the work."""
+MOST_LINGERING = 2
+"""Stopped works that may still be on their way to their end when another one begins."""
+
+_lingering: list[Thread] = []
+"""The threads of stopped works."""
 
 
 def in_thread(work: Callable[[Progress], T]) -> Steps[T]:
     """Run `work(progress)` on a thread; it may touch no Blender data.
 
-    Closing the steps makes the work's next progress call raise Cancelled, and waits for that.
+    Closing the steps takes no time: the work's next progress call raises Cancelled, and nobody waits for that, at the
+    end of Blender neither. Where several stopped works are still on their way there, the next one waits for one of
+    them: they hold memory.
     """
+    while len(_still_lingering()) >= MOST_LINGERING:
+        _lingering[0].join(PATIENCE)
+        yield 0.0, "Waiting for what was stopped"
     state: list[tuple[float, str]] = [(0.0, "")]
-    stopped = False
+    stopped = Event()
+    result: Future[T] = Future()
 
     def progress(share: float, what: str) -> None:
         state[0] = (share, what)
-        if stopped:
+        if stopped.is_set():
             raise Cancelled
 
-    with ThreadPoolExecutor(1, "facial retarget") as pool:
-        running = pool.submit(work, progress)
+    def run() -> None:
         try:
-            while True:
-                try:
-                    return running.result(PATIENCE)
-                except TimeoutError:
-                    if running.done():
-                        raise
-                yield state[0]
-        finally:
-            stopped = True
+            result.set_result(work(progress))
+        except BaseException as error:
+            result.set_exception(error)
+
+    # Python waits at its end for all threads but daemons.
+    thread = Thread(target=run, name="facial retarget", daemon=True)
+    thread.start()
+    try:
+        while True:
+            try:
+                return result.result(PATIENCE)
+            except TimeoutError:
+                if result.done():
+                    raise
+            yield state[0]
+    finally:
+        stopped.set()
+        _lingering.append(thread)
+
+
+def _still_lingering() -> list[Thread]:
+    _lingering[:] = [thread for thread in _lingering if thread.is_alive()]
+    return _lingering
 
 
 def part(steps: Steps[T], start: float, length: float) -> Steps[T]:

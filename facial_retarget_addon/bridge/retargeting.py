@@ -8,9 +8,8 @@ from typing import Any
 import bpy
 from bpy.types import Context, PropertyGroup
 
-from ..core.arrays import FloatArray, Progress
+from ..core.arrays import Progress
 from ..core.level_retargeter import LevelMotion
-from ..core.problem import Problem
 from ..core.retarget import Result, level_motions, retarget
 from ..files.pages.report import report_json, report_page
 from ..files.whole import written_whole
@@ -36,20 +35,28 @@ def retarget_steps(context: Context) -> Steps[dict[str, Any]]:
     ------
     RetargetError : for bad input; says what, and on which object.
     """
+    yield 0.0, "Reading the faces"
     task = context.scene.facial_retarget
     method, settings = task.method, read_task_settings(task)
     problem = read_problem(context)
+    yield 0.0, "Reading the faces"
     head = read_head(task.target)
     check_targets((task.source, *head_parts(task.source)), head.things)
     frames = frame_range(context)
     source = yield from part(read_frames(context, task.source, frames), 0.0, READING)
 
-    def compute(progress: Progress) -> Result:
-        return retarget(method, problem, settings, source, progress)
+    with_page = bool(task.page)
 
-    result = yield from part(in_thread(compute), READING, COMPUTING)
+    def compute(progress: Progress) -> tuple[Result, bytes]:
+        result = retarget(method, problem, settings, source, progress)
+        if not with_page:
+            return result, b""
+        progress(1.0, "Drawing the page")
+        return result, report_page(result.report, problem, source, result.frames, result.levels)
+
+    result, page = yield from part(in_thread(compute), READING, COMPUTING)
     yield READING + COMPUTING, "Writing"
-    _write_report(task, problem, source, result)
+    _write_report(task, result, page)
     write_head_frames(head, result.frames, frames.start)
     return result.report
 
@@ -75,11 +82,10 @@ def level_steps(context: Context) -> Steps[list[str]]:
     return [level.name for level in levels]
 
 
-def _write_report(task: PropertyGroup, problem: Problem, source: FloatArray, result: Result) -> None:
+def _write_report(task: PropertyGroup, result: Result, page: bytes) -> None:
     """Write the figures and the page where the panel says; together or not at all."""
     with written_whole() as aside:
         if task.report:
             aside.place(Path(bpy.path.abspath(task.report))).write_bytes(report_json(result.report))
         if task.page:
-            page = report_page(result.report, problem, source, result.frames, result.levels)
             aside.place(Path(bpy.path.abspath(task.page))).write_bytes(page)
