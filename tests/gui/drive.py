@@ -26,8 +26,6 @@ ARGUMENTS: list[str] = []
 Turns = Generator[None, None, Any]
 TURN = 0.01
 """Seconds between two turns, at least: a redraw takes longer."""
-PANELS_MOVE = 0.5
-"""Seconds, at least, in which panels that open and close slide to their places."""
 _mouse = [0, 0]
 
 
@@ -75,13 +73,6 @@ def log(*words: object) -> None:
 def wait(turns: int = 5) -> Turns:
     """Give Blender some turns."""
     for _ in range(turns):
-        yield
-
-
-def pause(seconds: float) -> Turns:
-    """Give Blender turns for a while: for what moves by the clock."""
-    end = monotonic() + seconds
-    while monotonic() < end:
         yield
 
 
@@ -304,11 +295,11 @@ def open_section(title: str, tab: str = "Retarget", editor: bpy.types.Area | Non
         bpy.ops.view2d.reset()
     yield from wait()
     yield from click(*_headers(editor)[childless], ctrl=True)
-    yield from pause(PANELS_MOVE)
-    for other in {childless, place}:
+    yield from still()
+    for other in (childless, place):
         if _is_open(other, editor) != (other == place):
             yield from click(*_headers(editor)[other])
-            yield from pause(PANELS_MOVE)
+            yield from still()
     assert _is_open(place, editor), f"{title} does not open"
 
 
@@ -333,7 +324,7 @@ def _is_open(place: int, editor: bpy.types.Area) -> bool:
     row, reach = len(pixels) - int(_headers(editor)[place][1]), int(9 * scale)
     left = int(shown.x + 6 * scale)
     arrow = pixels[row - reach : row + reach, left : left + int(16 * scale)].astype(int)
-    down, across = np.nonzero(arrow - np.median(arrow) > 40)
+    down, across = np.nonzero(arrow - np.median(arrow) > 80)  # a line of the scene shines through at less
     return np.ptp(across) > np.ptp(down)
 
 
@@ -390,6 +381,16 @@ def picture() -> np.ndarray:
     raw = subprocess.run(["import", "-window", "root", "-depth", "8", "gray:-"], check=True, stdout=subprocess.PIPE)
     shown = window()
     return np.frombuffer(raw.stdout, np.uint8).reshape(shown.height, shown.width)
+
+
+def still(seconds: float = 0.4) -> Turns:
+    """Give Blender turns until its window has looked the same for a while: panels slide to their places."""
+    before, since = picture(), monotonic()
+    while monotonic() < since + seconds:
+        yield from wait(3)
+        now = picture()
+        if (now != before).any():
+            before, since = now, monotonic()
 
 
 def reports() -> Iterator[str]:
