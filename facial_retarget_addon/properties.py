@@ -3,6 +3,7 @@
 The methods' settings are made from their dataclasses, so that panel, job file and core agree.
 """
 
+from collections.abc import Callable
 from dataclasses import Field, fields
 from typing import Any
 
@@ -18,10 +19,11 @@ from bpy.props import (
     PointerProperty,
     StringProperty,
 )
-from bpy.types import Object, PropertyGroup, Scene, WindowManager
+from bpy.types import Context, Object, PropertyGroup, Scene, WindowManager
 
 from .core.methods import METHODS
 from .core.methods.settings import SETTINGS
+from .preview_state import STATE
 
 LEVEL_GAINS = 6
 """Gains that the panel offers: as many as there can be levels."""
@@ -181,6 +183,11 @@ class FACIAL_RETARGET_PG_sculpting(PropertyGroup):
     pinned: BoolProperty(name="Pinned", description="Whether it alone was shown before")
 
 
+def _tell(what: str) -> Callable[[PropertyGroup, Context], None]:
+    """Tells the live preview that a property was changed: its faces, or settings."""
+    return lambda _, __: STATE.tell(what)
+
+
 def _label(name: str) -> str:
     """A name of the core as an artist reads it."""
     return name.replace("_", " ").capitalize()
@@ -189,7 +196,7 @@ def _label(name: str) -> str:
 def _property(setting: Field) -> Any:
     """The Blender property of one setting of a method."""
     limits = setting.metadata
-    text = {"name": _label(setting.name), "description": limits["help"]}
+    text = {"name": _label(setting.name), "description": limits["help"], "update": _tell("settings")}
     if isinstance(setting.default, str):
         items = [(choice, choice.capitalize(), limits["help"]) for choice in limits["choices"]]
         return EnumProperty(items=items, default=setting.default, **text)
@@ -294,8 +301,12 @@ class FACIAL_RETARGET_PG_overlay(PropertyGroup):
 class FACIAL_RETARGET_PG_task(PropertyGroup):
     """One retargeting task: the panel, and what a job file holds."""
 
-    source: PointerProperty(name="Source", type=Object, poll=_is_mesh, description="The face that moves")
-    target: PointerProperty(name="Target", type=Object, poll=_is_mesh, description="The face that shall move")
+    source: PointerProperty(
+        name="Source", type=Object, poll=_is_mesh, update=_tell("faces"), description="The face that moves"
+    )
+    target: PointerProperty(
+        name="Target", type=Object, poll=_is_mesh, update=_tell("faces"), description="The face that shall move"
+    )
     source_neutral: EnumProperty(
         name="Neutral",
         items=[
@@ -319,7 +330,9 @@ class FACIAL_RETARGET_PG_task(PropertyGroup):
     sculpting: PointerProperty(type=FACIAL_RETARGET_PG_sculpting)
     cloning: PointerProperty(type=FACIAL_RETARGET_PG_cloning)
     overlay: PointerProperty(type=FACIAL_RETARGET_PG_overlay)
-    method: EnumProperty(name="Method", items=[(name, _label(name), text) for name, text in METHODS.items()])
+    method: EnumProperty(
+        name="Method", items=[(name, _label(name), text) for name, text in METHODS.items()], update=_tell("settings")
+    )
     report: StringProperty(name="Report", subtype="FILE_PATH", description="Where to write the figures (.json)")
     page: StringProperty(name="Page", subtype="FILE_PATH", description="Where to write the page to look at (.html)")
     output: StringProperty(

@@ -15,6 +15,7 @@ from . import (
     motion,
     next_step,
     overlay,
+    preview,
     report,
 )
 
@@ -29,6 +30,7 @@ CLASSES = (
     examples.FACIAL_RETARGET_UL_examples,
     examples.FACIAL_RETARGET_PT_examples,
     method.FACIAL_RETARGET_PT_retarget,
+    preview.FACIAL_RETARGET_PT_preview,
     method.FACIAL_RETARGET_PT_settings,
     bake_export.FACIAL_RETARGET_PT_export,
     bake_export.FACIAL_RETARGET_PT_job,

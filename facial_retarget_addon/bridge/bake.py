@@ -24,6 +24,11 @@ def key_name(frame: int) -> str:
     return BAKED_KEY.format(frame)
 
 
+def is_frame_key(name: str) -> bool:
+    """Whether a shape key of this name is a frame's."""
+    return re.fullmatch(r"frame_-?\d{3,}", name) is not None
+
+
 def write_frames(thing: Object, frames: FloatArray, first: int) -> None:
     """Bake frames as relative shape keys, each on at its own frame only; an earlier bake is replaced.
 
@@ -80,7 +85,7 @@ def remove_frames(thing: Object, keep: set[str] = frozenset()) -> None:
     keys = thing.data.shape_keys
     if keys is None:
         return
-    baked = [key.name for key in keys.key_blocks if re.fullmatch(r"frame_-?\d{3,}", key.name)]
+    baked = [key.name for key in keys.key_blocks if is_frame_key(key.name)]
     bag = find_curves(keys)
     if bag is not None:
         remove_curves(bag, {value_path(name) for name in baked})

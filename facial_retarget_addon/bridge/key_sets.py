@@ -10,7 +10,7 @@ from bpy.types import Object, ShapeKey
 
 from ..core.arrays import FloatArray
 from ..core.errors import RetargetError
-from .shape_keys import ensure_basis, ensure_key, find_key, key_displacement, write_key
+from .shape_keys import PREVIEW_KEY, ensure_basis, ensure_key, find_key, key_displacement, write_key
 
 LONGEST = 63
 """Bytes that Blender keeps of a shape key's name."""
@@ -63,9 +63,10 @@ def check_relative(thing: Object) -> None:
 
 
 def key_names(thing: Object) -> list[str]:
-    """Names of an object's shape keys, without the Basis."""
+    """Names of an object's shape keys, without the Basis and what carries the live preview."""
     keys = thing.data.shape_keys
-    return [] if keys is None else [key.name for key in keys.key_blocks if key != keys.reference_key]
+    own = () if keys is None else keys.key_blocks
+    return [key.name for key in own if key != keys.reference_key and key.name != PREVIEW_KEY]
 
 
 def read_traits(key: ShapeKey) -> KeyTraits:

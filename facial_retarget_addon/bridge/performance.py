@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 
 import numpy as np
-from bpy.types import Context, Object, Scene
+from bpy.types import Context, Object, Scene, ViewLayer
 
 from ..core.arrays import FloatArray
 from ..core.errors import RetargetError
@@ -29,6 +29,15 @@ def scene_rate(scene: Scene) -> float:
     return scene.render.fps / scene.render.fps_base
 
 
+def check_visible(things: Sequence[Object], view_layer: ViewLayer) -> None:
+    """RetargetError if an object is hidden: Blender does not evaluate it then."""
+    for thing in things:
+        if not thing.visible_get(view_layer=view_layer):
+            raise RetargetError(
+                f"object {thing.name!r} is hidden, expected it visible: Blender evaluates nothing hidden"
+            )
+
+
 def read_frame(context: Context, things: Sequence[Object], frame: int) -> FloatArray:
     """(V, 3) float32 positions of a face and its parts at one frame, in face space; the scene is left at that frame.
 
@@ -36,11 +45,7 @@ def read_frame(context: Context, things: Sequence[Object], frame: int) -> FloatA
     ------
     RetargetError : if one is hidden (Blender does not evaluate it then), or its vertices change in number.
     """
-    for thing in things:
-        if not thing.visible_get(view_layer=context.view_layer):
-            raise RetargetError(
-                f"object {thing.name!r} is hidden, expected it visible: Blender evaluates nothing hidden"
-            )
+    check_visible(things, context.view_layer)
     context.scene.frame_set(frame)
     return head_now(things, context.evaluated_depsgraph_get())
 

@@ -10,6 +10,9 @@ from bpy.utils import escape_identifier
 
 from ..core.arrays import FloatArray
 
+PREVIEW_KEY = "facial_retarget_preview"
+"""Name of the shape key that carries the live preview; no other key has it."""
+
 
 def ensure_basis(thing: Object) -> ShapeKey:
     """The object's Basis, made if it has no shape keys."""

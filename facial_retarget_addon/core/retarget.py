@@ -13,7 +13,7 @@ from .arrays import FloatArray, Progress, no_progress, progress_part
 from .checks import faults, warnings
 from .errors import RetargetError
 from .level_retargeter import LevelMotion, LevelRetargeter, LevelsOf
-from .methods.base import fit
+from .methods.base import Retargeter, fit
 from .methods.settings import LEVELED, Settings
 from .problem import Problem
 from .quality import Quality
@@ -94,6 +94,18 @@ def retarget(
     return Result(result, report, quality.per_frame(), levels)
 
 
+def checked_fit(method: str, problem: Problem, settings: Settings, progress: Progress = no_progress) -> Retargeter:
+    """Check a problem and fit a method to its two faces, for frames that come one by one.
+
+    Raises
+    ------
+    RetargetError : for anything that is wrong with the problem, or whatever the method refuses.
+    """
+    if wrong := faults(problem, None, settings):
+        raise RetargetError("; ".join(wrong))
+    return fit(method, problem, settings, progress)
+
+
 def level_motions(
     method: str, problem: Problem, settings: Settings, frame: FloatArray, progress: Progress = no_progress
 ) -> list[LevelMotion]:
@@ -103,11 +115,9 @@ def level_motions(
     ------
     RetargetError : as `retarget`, and for a method without levels.
     """
-    if wrong := faults(problem, None, settings):
-        raise RetargetError("; ".join(wrong))
     if method not in LEVELED:
         raise RetargetError(f"method {method!r} has no levels, expected one of {', '.join(LEVELED)}")
-    retargeter = cast(LevelRetargeter, fit(method, problem, settings, progress_part(progress, 0.0, 0.9)))
+    retargeter = cast(LevelRetargeter, checked_fit(method, problem, settings, progress_part(progress, 0.0, 0.9)))
     progress(0.9, "taking the frame apart")
     return retargeter.levels(frame[None])
 

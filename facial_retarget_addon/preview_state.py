@@ -1,0 +1,39 @@
+"""What the live preview is doing, as plain data: the bridge writes it, panels show it, properties tell of changes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+
+@dataclass
+class PreviewState:
+    """What a panel shows of the preview.
+
+    Attributes
+    ----------
+    on : whether the target follows the source.
+    method : the method that is shown.
+    stale : what has changed since the fit, "" for nothing.
+    trouble : why the last frame could not be shown, "" where it was.
+    milliseconds : that the last update took, from reading the source to writing the target.
+    listener : called with what was changed, "faces" or "settings", while the preview is on.
+    forget : ends the preview and drops what was fitted; None where nothing was.
+    """
+
+    on: bool = False
+    method: str = ""
+    stale: str = ""
+    trouble: str = ""
+    milliseconds: float = 0.0
+    listener: Callable[[str], None] | None = None
+    forget: Callable[[], None] | None = None
+
+    def tell(self, what: str) -> None:
+        """A property has changed."""
+        if self.listener is not None:
+            self.listener(what)
+
+
+STATE = PreviewState()
+"""That of this Blender."""
