@@ -46,6 +46,7 @@ CLASSES = (
     sculpt_example.FACIAL_RETARGET_OT_sculpt_example,
     sculpt_example.FACIAL_RETARGET_OT_stop_sculpting,
     make_examples.FACIAL_RETARGET_OT_rough_out,
+    make_examples.FACIAL_RETARGET_OT_mirror_example,
     make_examples.FACIAL_RETARGET_OT_scale_example,
     make_examples.FACIAL_RETARGET_OT_check_examples,
     retarget.FACIAL_RETARGET_OT_retarget,

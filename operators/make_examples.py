@@ -21,6 +21,10 @@ class OnExample(OnTask):
         """The face object."""
         return getattr(context.scene.facial_retarget, self.side.lower())
 
+    def names(self, context: Context) -> list[str]:
+        """The example, or all of the list."""
+        return [self.example] if self.example else [one.name for one in context.scene.facial_retarget.examples]
+
 
 class FACIAL_RETARGET_OT_rough_out(OnExample, InSteps, Operator):
     """Make examples to sculpt on, out of the face's feature points or as the other face shows them; Esc stops"""
@@ -75,8 +79,7 @@ class FACIAL_RETARGET_OT_rough_out(OnExample, InSteps, Operator):
         """Read, compute, write."""
         from ..facial_retarget_addon.bridge.example_making import rough_out_steps
 
-        names = [self.example] if self.example else [one.name for one in context.scene.facial_retarget.examples]
-        return rough_out_steps(context, names, self.side, self.way, self.existing == "REPLACE")
+        return rough_out_steps(context, self.names(context), self.side, self.way, self.existing == "REPLACE")
 
     def finish(self, result: Any) -> None:
         """Say what was made and what was not."""
@@ -86,6 +89,36 @@ class FACIAL_RETARGET_OT_rough_out(OnExample, InSteps, Operator):
             self.report({"WARNING"}, f"{', '.join(result.unable)}: there is nothing to make it from, sculpt it")
         kept = f", {len(result.kept)} kept" if result.kept else ""
         self.report({"INFO"}, f"{len(result.made)} examples roughed out{kept}")
+
+
+class FACIAL_RETARGET_OT_mirror_example(OnExample, InSteps, Operator):
+    """Mirror this example through the surface: meshes that are not symmetric too; Esc stops"""
+
+    bl_idname = "facial_retarget.mirror_example"
+    bl_label = "Mirror"
+    bl_options = {"REGISTER", "UNDO"}
+    doing = "Mirroring"
+
+    way: EnumProperty(
+        name="Way",
+        items=[
+            ("LEFT_TO_RIGHT", "Left to Right", "The right half shows what the face's left half does"),
+            ("RIGHT_TO_LEFT", "Right to Left", "The left half shows what the face's right half does"),
+            ("BOTH", "Mean of Both", "Both halves show the mean of what they do"),
+            ("FLIP", "Flip", "The halves exchange what they do"),
+        ],
+        description="Which half becomes what",
+    )
+
+    def steps(self, context: Context) -> Any:
+        """Find what lies opposite to what, then write."""
+        from ..facial_retarget_addon.bridge.example_making import mirror_steps
+
+        return mirror_steps(context, self.names(context), self.side, self.way)
+
+    def finish(self, result: Any) -> None:
+        """Say which ones."""
+        self.report({"INFO"}, f"Mirrored: {', '.join(result)}")
 
 
 class FACIAL_RETARGET_OT_scale_example(OnExample, Operator):

@@ -76,13 +76,13 @@ def _draw_chosen(layout: UILayout, context: Context, example: PropertyGroup) -> 
     for side, label in (("SOURCE", "Source"), ("TARGET", "Target")):
         column = columns.column(align=True)
         column.label(text=label)
-        for kind, options in (
-            ("sculpt_example", {"text": "Sculpt", "icon": "SCULPTMODE_HLT"}),
-            ("rough_out", {"text": "From Points"}),
-            ("rough_out", {"text": "From Other Face"}),
-            ("scale_example", {}),
+        for button, way in (
+            (column.operator("facial_retarget.sculpt_example", text="Sculpt", icon="SCULPTMODE_HLT"), ""),
+            (column.operator("facial_retarget.rough_out", text="From Points"), "POINTS"),
+            (column.operator("facial_retarget.rough_out", text="From Other Face"), "CLONE"),
+            (column.operator_menu_enum("facial_retarget.mirror_example", "way"), ""),
+            (column.operator("facial_retarget.scale_example"), ""),
         ):
-            button = column.operator(f"facial_retarget.{kind}", **options)
             button.example, button.side = example.name, side
-            if kind == "rough_out":
-                button.way = "POINTS" if options["text"] == "From Points" else "CLONE"
+            if way:
+                button.way = way

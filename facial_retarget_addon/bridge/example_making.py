@@ -12,6 +12,7 @@ from ..core.acting.expression_sets import expression_shapes
 from ..core.arrays import FloatArray, Progress
 from ..core.errors import RetargetError
 from ..core.example_states import is_sculpted
+from ..core.mirroring.mirror import fit_mirror
 from ..core.mpeg4.sets import SETS
 from ..core.problem import Problem
 from ..core.shapes.clone import ClonedShapes, clone_shapes
@@ -21,7 +22,7 @@ from .examples import example_moves
 from .fap_faces import fit_steps, write_shapes
 from .head_shapes import put_shapes
 from .heads import Head, head_parts
-from .key_sets import check_targets
+from .key_sets import check_editable, check_targets
 from .raycast import available_caster
 from .settings import read_method_settings
 from .shape_keys import find_key, key_displacement
@@ -120,10 +121,35 @@ def _shown_moves(head: Head, names: Sequence[str]) -> dict[str, FloatArray]:
     moves = {name: example_moves(head, name) for name in there}
     shown = {name: moved for name, moved in moves.items() if is_sculpted(moved, head.face.mesh.size)}
     if not shown:
-        raise RetargetError(
-            f"object {head.name!r} does not show {', '.join(names)} either, expected it sculpted there to be cloned"
-        )
+        raise RetargetError(f"object {head.name!r} shows nothing of {', '.join(names)}, expected it sculpted there")
     return shown
+
+
+def mirror_steps(context: Context, names: Sequence[str], side: str, way: str) -> Steps[list[str]]:
+    """Mirror examples of one face on its own surface; returns the names of those that it shows.
+
+    Parameters
+    ----------
+    side : SOURCE or TARGET.
+    way : of `core.mirroring.mirror.WAYS`.
+
+    Raises
+    ------
+    RetargetError : if the face shows none of them, cannot be written, or as `fit_mirror`.
+    """
+    head = read_heads(context)[0 if side == "SOURCE" else 1]
+    for thing in head.things:
+        check_editable(thing)
+    moves = _shown_moves(head, names)
+
+    def mirrored(progress: Progress) -> ShapeSet:
+        mirror = fit_mirror(head.face.mesh, head.file.counts, head.file.corners, head.face.points, progress)
+        found = [mirror.shape(moved, way) for moved in moves.values()]
+        return ShapeSet(tuple(moves), np.stack(found).astype(np.float32))
+
+    shapes = yield from part(in_thread(mirrored), 0.0, 0.95)
+    put_shapes(head, shapes, {name: name for name in moves}, {})
+    return list(moves)
 
 
 def scale_example(face: Object, name: str, factor: float) -> None:
