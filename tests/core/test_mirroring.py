@@ -128,7 +128,9 @@ def test_the_eyes_are_each_others_image():
     assert mirror.exact.all()
     mesh = built.face.mesh
     image = mesh.components[mirror.matrix.indices]
-    eyes = [k for k in np.unique(mesh.components) if abs(mesh.vertices[mesh.components == k, 0].mean()) > 20]
+    eyes = [
+        k for k in np.unique(mesh.components) if abs(mesh.vertices[mesh.components == k, 0].mean()) > 0.1 * mesh.size
+    ]
     assert len(eyes) >= 2
     for eye in eyes:
         opposite = np.unique(image[mesh.components == eye])
