@@ -9,7 +9,7 @@ import os
 import subprocess
 import sys
 import traceback
-from collections.abc import Callable, Generator, Iterator, Sequence
+from collections.abc import Callable, Generator, Sequence
 from pathlib import Path
 from time import monotonic
 from typing import Any
@@ -391,13 +391,3 @@ def still(seconds: float = 0.4) -> Turns:
         now = picture()
         if (now != before).any():
             before, since = now, monotonic()
-
-
-def reports() -> Iterator[str]:
-    """What Blender has told the artist so far."""
-    with override():
-        bpy.ops.ui.reports_to_textblock()
-    text = bpy.data.texts["Recent Reports"]
-    lines = [line.body for line in text.lines]
-    bpy.data.texts.remove(text)
-    return iter(lines)
