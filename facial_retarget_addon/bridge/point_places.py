@@ -53,7 +53,9 @@ def world_normals(thing: Object, depsgraph: Depsgraph, which: str = "points") ->
     """(P, 3) normals of the evaluated surface at the points, in world space and of no particular length; 0 where a
     modifier has renumbered the vertices. The parameters and errors are those of `world_places`.
     """
-    points = read_points(thing) if which == "points" else read_proposals(thing)
+    if thing.data.is_editmode:
+        return np.empty((0, 3))
+    points = settled_points(thing).points if which == "points" else read_proposals(thing)
     shown = thing.evaluated_get(depsgraph).data
     if not len(points) or not _order_kept(thing, len(shown.vertices)):
         return np.zeros((len(points), 3))
