@@ -8,7 +8,7 @@ import numpy as np
 
 from ..arrays import FloatArray, IntArray
 from ..closest_point import SurfaceFinder
-from ..rigid import Similarity, fit_similarity
+from ..rigid import Similarity
 from .template import Template
 
 EXACT = 0.005
@@ -52,7 +52,14 @@ class FaceFit:
         return self.template.normals @ self.pose.rotation.T
 
 
-def fit_face(template: Template, rows: IntArray, places: FloatArray, finder: SurfaceFinder) -> FaceFit:
+def fit_face(
+    template: Template,
+    pose: Similarity,
+    rows: IntArray,
+    places: FloatArray,
+    exactness: FloatArray,
+    finder: SurfaceFinder,
+) -> FaceFit:
     """Lay a template on a head: a Gaussian process whose observations are the known points and the surface.
 
     Known points give all three coordinates; every other point tells only how far the surface lies from it along its
@@ -60,29 +67,26 @@ def fit_face(template: Template, rows: IntArray, places: FloatArray, finder: Sur
 
     Parameters
     ----------
-    rows : (P,) of the known points in the template, at least 3 that are not on one line.
+    pose : takes the template to the head.
+    rows : (P,) of the known points in the template.
     places : (P, 3) where they are.
+    exactness : (P,) how far they may be off, in eye separations.
     finder : of the head's skin.
-
-    Raises
-    ------
-    RetargetError : as `fit_similarity`.
 
     References
     ----------
     Rasmussen and Williams 2006, equations (2.25) and (2.26); Luethi et al. 2017 for faces.
     """
-    pose = fit_similarity(template.places[rows], places)
     known = pose.inverse.apply(places) - template.places[rows]
     columns = (3 * rows[:, None] + np.arange(3)).ravel()
     among = template.covariance[np.ix_(columns, columns)]
-    exact = np.full(len(columns), EXACT**2)
+    exact = np.repeat(exactness**2, 3)
     boldness = _boldness(among + np.diag(exact), known.ravel())
     differences = _condition(boldness * template.covariance[:, columns], boldness * among, exact, known.ravel())
     fit = FaceFit(template, pose, differences)
     free = np.setdiff1d(np.arange(len(template.names)), rows)
     for _ in range(ROUNDS):
-        fit = FaceFit(template, pose, _towards_surface(fit, free, columns, known, boldness, finder))
+        fit = FaceFit(template, pose, _towards_surface(fit, free, columns, known, exact, boldness, finder))
     return fit
 
 
@@ -100,7 +104,13 @@ def _condition(cross_covariance: FloatArray, covariance: FloatArray, slack: Floa
 
 
 def _towards_surface(
-    fit: FaceFit, free: IntArray, columns: IntArray, known: FloatArray, boldness: float, finder: SurfaceFinder
+    fit: FaceFit,
+    free: IntArray,
+    columns: IntArray,
+    known: FloatArray,
+    exact: FloatArray,
+    boldness: float,
+    finder: SurfaceFinder,
 ) -> FloatArray:
     """(N, 3) differences that know where the surface lies next to the points that are free."""
     template, pose = fit.template, fit.pose
@@ -115,7 +125,7 @@ def _towards_surface(
     cross_covariance = boldness * np.concatenate([template.covariance[:, columns], along], axis=1)
     of_normals = np.einsum("pkn,pk->pn", cross_covariance.reshape(count, 3, -1)[rows], outwards)
     covariance = np.concatenate([cross_covariance[columns], of_normals])
-    slack = np.concatenate([np.full(len(columns), EXACT**2), SLACK**2 * (1 + (away / TRUSTED) ** 2)])
+    slack = np.concatenate([exact, SLACK**2 * (1 + (away / TRUSTED) ** 2)])
     return _condition(
         cross_covariance, covariance, slack, np.concatenate([known.ravel(), np.einsum("pi,pi->p", seen, outwards)])
     )

@@ -4,24 +4,29 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..acting.eyeballs import ROUND, WRAPS, fit_sphere
 from ..arrays import BoolArray, FloatArray, cross, unit_vectors
 from ..mesh import TriMesh
-from ..raycast import RayCaster
+from ..raycast import CasterFactory
 
 TURNS = 5
 """Ways out that are tried around a face's normal, beside the normal itself."""
 LEAN = np.radians(50.0)
 """How far these lean away from it."""
+LARGE = 0.05
+"""Share of the mesh's area from which a component hides what is behind it."""
+FEWEST = 12
+"""Vertices of an eyeball, at least."""
 _LIFT = 1e-4
 
 
-def seen_from_outside(mesh: TriMesh, caster: RayCaster) -> BoolArray:
+def seen_from_outside(mesh: TriMesh, make_caster: CasterFactory) -> BoolArray:
     """(F,) true for faces from whose middle some straight way leads out of the mesh, on their outer side.
 
-    Parameters
-    ----------
-    caster : casts rays on the whole mesh, with its eyes and teeth.
+    Only large components and eyeballs stand in the way: lashes hide nothing.
     """
+    solid = _solid(mesh)
+    caster = make_caster(TriMesh(mesh.vertices, mesh.faces[solid[mesh.faces[:, 0]]]))
     normal = mesh.face_normals
     across = unit_vectors(cross(normal, np.where(np.abs(normal[:, :1]) < 0.7, [[1.0, 0, 0]], [[0, 1.0, 0]])))
     other = cross(normal, across)
@@ -31,6 +36,27 @@ def seen_from_outside(mesh: TriMesh, caster: RayCaster) -> BoolArray:
         left = np.flatnonzero(~seen)
         seen[left] = ~caster.nearest(start[left], direction[left]).found
     return seen
+
+
+def _solid(mesh: TriMesh) -> BoolArray:
+    """(V,) vertices of components that hide what is behind them."""
+    labels = mesh.components
+    areas = np.bincount(labels, mesh.vertex_areas)
+    large = areas >= LARGE * areas.sum()
+    for component in np.flatnonzero(~large & (areas > 0)):
+        large[component] = is_ball(mesh.vertices[labels == component])
+    solid: BoolArray = large[labels]
+    return solid
+
+
+def is_ball(positions: FloatArray) -> bool:
+    """Whether the vertices (n, 3) of a component are those of an eyeball, or of the front half of one."""
+    if len(positions) < FEWEST:
+        return False
+    middle, radius = fit_sphere(positions)
+    away = np.linalg.norm(positions - middle, axis=1)
+    round_ = away.std() < ROUND * radius
+    return bool(round_ and np.linalg.norm(positions.mean(axis=0) - middle) < WRAPS * radius)
 
 
 def _ways(normal: FloatArray, across: FloatArray, other: FloatArray) -> list[FloatArray]:

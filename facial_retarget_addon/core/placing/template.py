@@ -12,7 +12,7 @@ from ..arrays import FloatArray, IntArray
 from ..mpeg4.fdps import FDPS
 from .face_table import LEFT_AND_MIDDLE
 
-SPREADS = ((0.12, 0.9), (0.06, 0.35))
+SPREADS = ((0.12, 0.9), (0.06, 0.35), (0.05, 0.12))
 """How faces differ from the average: amplitudes, and how far a difference reaches, both in eye separations."""
 ALIKE = 0.9
 """How much the difference of one half is that of the other: 1 for faces that are all symmetric."""
