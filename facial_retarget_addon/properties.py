@@ -291,6 +291,10 @@ class FACIAL_RETARGET_PG_overlay(PropertyGroup):
         description="Show the feature points of source, target and the active face; names appear under the mouse",
     )
     show_names: BoolProperty(name="All Names", description="Show the names of all points that face the view")
+    show_base: BoolProperty(
+        name="Base Mesh",
+        description="Show the triangles between the points on source and target; those that fold over stand out",
+    )
     show_diagram: BoolProperty(
         name="Diagram",
         default=True,

@@ -13,6 +13,7 @@ def draw_overlay(layout: UILayout, context: Context) -> None:
     names = grid.row()
     names.active = wanted.show_points
     names.prop(wanted, "show_names")
+    grid.prop(wanted, "show_base")
     grid.prop(wanted, "show_diagram")
 
 

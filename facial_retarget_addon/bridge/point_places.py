@@ -36,17 +36,31 @@ def world_places(thing: Object, depsgraph: Depsgraph, which: str = "points") -> 
     points = settled_points(thing).points if which == "points" else read_proposals(thing)
     if not len(points):
         return (), np.empty((0, 3))
+    vertices = shown_vertices(thing, depsgraph)
+    if vertices is not None:
+        return points.names, points.positions(vertices)
+    before = points.positions(read_positions(thing.data).astype(np.float64))
     shown = thing.evaluated_get(depsgraph)
-    count = len(thing.data.vertices)
-    if _order_kept(thing, len(shown.data.vertices)):
-        flat = np.empty(3 * len(shown.data.vertices), np.float32)
-        shown.data.attributes["position"].data.foreach_get("vector", flat)
-        own = points.positions(flat.reshape(-1, 3)[:count].astype(np.float64))
-    else:
-        before = points.positions(read_positions(thing.data).astype(np.float64))
-        own = np.array([shown.closest_point_on_mesh(place)[1] for place in before.tolist()])
+    own = np.array([shown.closest_point_on_mesh(place)[1] for place in before.tolist()])
+    return points.names, _in_world(thing, own)
+
+
+def shown_vertices(thing: Object, depsgraph: Depsgraph) -> FloatArray | None:
+    """(V, 3) places in world space where modifiers and shape keys have put the vertices of an object's own mesh.
+
+    None where a modifier has renumbered them.
+    """
+    shown, count = thing.evaluated_get(depsgraph).data, len(thing.data.vertices)
+    if not _order_kept(thing, len(shown.vertices)):
+        return None
+    flat = np.empty(3 * len(shown.vertices), np.float32)
+    shown.attributes["position"].data.foreach_get("vector", flat)
+    return _in_world(thing, flat.reshape(-1, 3)[:count].astype(np.float64))
+
+
+def _in_world(thing: Object, own: FloatArray) -> FloatArray:
     matrix = np.array(thing.matrix_world, np.float64)
-    return points.names, own @ matrix[:3, :3].T + matrix[:3, 3]
+    return own @ matrix[:3, :3].T + matrix[:3, 3]
 
 
 def world_normals(thing: Object, depsgraph: Depsgraph, which: str = "points") -> FloatArray:

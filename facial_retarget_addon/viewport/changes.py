@@ -1,4 +1,4 @@
-"""Which objects look otherwise than before: what is drawn of them is built anew only then."""
+"""Which objects look otherwise than before, or have other points: what is drawn of them is built anew only then."""
 
 from __future__ import annotations
 
@@ -6,8 +6,9 @@ from itertools import count
 from typing import Any
 
 import bpy
+import numpy as np
 from bpy.app.handlers import persistent
-from bpy.types import Object
+from bpy.types import Object, bpy_prop_collection
 
 _numbers = count(1)
 _all = [0]
@@ -17,6 +18,14 @@ _own: dict[int, int] = {}
 def look(thing: Object) -> int:
     """A number that is another one as soon as an object may look otherwise."""
     return max(_all[0], _own.get(thing.session_uid, 0))
+
+
+def stored_points(points: bpy_prop_collection) -> tuple[Any, ...]:
+    """All that a collection of points says, quick to compare."""
+    vertices, weights = np.empty(3 * len(points), np.int32), np.empty(3 * len(points), np.float32)
+    points.foreach_get("vertices", vertices)
+    points.foreach_get("weights", weights)
+    return (*points.keys(), vertices.tobytes(), weights.tobytes())
 
 
 @persistent

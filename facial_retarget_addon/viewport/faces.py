@@ -7,13 +7,14 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from bpy.types import Context, Object, bpy_prop_collection
+from bpy.types import Context, Object
 from gpu.types import GPUBatch
 
 from ..core.arrays import BoolArray, FloatArray
 from ..core.doubts import doubts
 from ..core.errors import RetargetError
-from .changes import look
+from .base import folded_names
+from .changes import look, stored_points
 from .marks import DOUBTFUL, PLACED, PROPOSED, SELECTED, mark_batch
 from .projection import pixels_across, toward_viewer
 
@@ -21,6 +22,7 @@ MODES = ("OBJECT", "EDIT_MESH", "POSE", "PAINT_WEIGHT")
 """Where points are drawn: a sculptor sees the surface."""
 SHARE, SMALLEST, LARGEST = 0.014, 2.2, 4.5
 """Radius of a mark as a share of the face's height in pixels, and its limits in pixels at a UI scale of 1."""
+FOLDED = "a triangle of the base mesh folds over here"
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,19 +85,11 @@ def face_marks(context: Context, thing: Object) -> FaceMarks:
     """The marks of a face, made anew only where something has changed."""
     face = thing.facial_retarget
     active = face.active_point if thing == context.active_object else -1
-    state = (look(thing), active, _stored(face.points), _stored(face.proposals))
+    state = (look(thing), active, folded_names(thing), stored_points(face.points), stored_points(face.proposals))
     made = _made.get(thing.session_uid)
     if made is None or made.state != state:
         made = _made[thing.session_uid] = _make(thing, context.view_layer.depsgraph, active, state)
     return made
-
-
-def _stored(points: bpy_prop_collection) -> tuple[Any, ...]:
-    """All that a collection of points says, quick to compare."""
-    vertices, weights = np.empty(3 * len(points), np.int32), np.empty(3 * len(points), np.float32)
-    points.foreach_get("vertices", vertices)
-    points.foreach_get("weights", weights)
-    return (*points.keys(), vertices.tobytes(), weights.tobytes())
 
 
 def _make(thing: Object, depsgraph: Any, active: int, state: tuple[Any, ...]) -> FaceMarks:
@@ -107,7 +101,7 @@ def _make(thing: Object, depsgraph: Any, active: int, state: tuple[Any, ...]) ->
     except RetargetError as error:
         none = np.empty((0, 3))
         return FaceMarks(state, (), 0, (), none, none, None, {}, str(error))
-    doubtful = doubts(placed, at)
+    doubtful = dict.fromkeys(folded_names(thing), FOLDED) | doubts(placed, at)
     shapes = [DOUBTFUL if name in doubtful else PLACED for name in placed] + [PROPOSED] * len(proposed)
     if 0 <= active < len(placed):
         shapes[active] = SELECTED

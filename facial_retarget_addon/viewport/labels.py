@@ -7,6 +7,8 @@ from typing import NamedTuple
 
 import blf
 import gpu
+import numpy as np
+from bpy.types import Context
 from gpu_extras.batch import batch_for_shader
 
 TEXT, PAPER = (1.0, 1.0, 1.0, 1.0), (0.06, 0.06, 0.06, 0.72)
@@ -68,28 +70,37 @@ def spread_labels(
 
     None lies over another one, over one of the `marks` or out of the region: one without room is left out.
     """
-    taken = list(marks)
-    tall = (SIZE + 7) * scale
+    taken = np.empty((len(marks) + len(wanted), 4))
+    taken[: len(marks)] = np.array(marks).reshape(-1, 4)
+    count, tall = len(marks), (SIZE + 7) * scale
     for text, x, y, gap in wanted:
-        wide = text_width(text, scale) + 8 * scale
-        across = 0.7 * gap
-        for left, bottom in (
-            (x + gap, y - tall / 2),
-            (x - gap - wide, y - tall / 2),
-            (x - wide / 2, y + gap),
-            (x - wide / 2, y - gap - tall),
-            (x + across, y + across),
-            (x - across - wide, y + across),
-            (x + across, y - across - tall),
-            (x - across - wide, y - across - tall),
-        ):
-            box = (left, bottom, left + wide, bottom + tall)
-            inside = left >= 0 and bottom >= 0 and box[2] <= width and box[3] <= height
-            if inside and not any(_touch(box, other) for other in taken):
-                taken.append(box)
-                yield box, text
-                break
+        wide, across = text_width(text, scale) + 8 * scale, 0.7 * gap
+        lower_left = np.array(
+            [
+                (x + gap, y - tall / 2),
+                (x - gap - wide, y - tall / 2),
+                (x - wide / 2, y + gap),
+                (x - wide / 2, y - gap - tall),
+                (x + across, y + across),
+                (x - across - wide, y + across),
+                (x + across, y - across - tall),
+                (x - across - wide, y - across - tall),
+            ]
+        )
+        boxes = np.concatenate([lower_left, lower_left + (wide, tall)], axis=1)
+        inside = (boxes[:, :2] >= 0).all(axis=1) & (boxes[:, 2:] <= (width, height)).all(axis=1)
+        apart = (boxes[:, None, 2:] <= taken[:count, :2]) | (taken[:count, 2:] <= boxes[:, None, :2])
+        free = inside & apart.any(axis=2).all(axis=1)
+        if free.any():
+            taken[count] = boxes[free.argmax()]
+            yield tuple(taken[count].tolist()), text
+            count += 1
 
 
-def _touch(one: Box, other: Box) -> bool:
-    return one[0] < other[2] and other[0] < one[2] and one[1] < other[3] and other[1] < one[3]
+def draw_trouble(context: Context, text: str) -> None:
+    """A line at the lower edge of a view that says why something is not drawn; nothing without a text."""
+    if text:
+        scale = context.preferences.system.ui_scale
+        x, y = 70 * scale, 14 * scale
+        draw_boxes([(x, y, x + text_width(text, scale) + 8 * scale, y + (SIZE + 7) * scale)])
+        draw_text(text, x + 4 * scale, y + 4.5 * scale, scale, colour=(1.0, 0.85, 0.3, 1.0))

@@ -5,15 +5,23 @@ from __future__ import annotations
 import bpy
 import gpu
 from bpy.app.handlers import persistent
-from bpy.types import Context, SpaceView3D
+from bpy.types import Context, Object, SpaceView3D
+from mathutils import Matrix
 
 from ..core.point_sets import point_label
+from . import base
+from .base import base_batches, trouble
 from .diagram import draw_diagram
 from .faces import FaceMarks, face_marks, forget, shown_faces
 from .hover import hovered
-from .labels import Label, draw_labels, spread_labels
-from .marks import draw_marks
+from .labels import Label, draw_labels, draw_trouble, spread_labels
+from .lines import draw_lines
+from .marks import COLOURS, DOUBTFUL, draw_marks
 from .projection import screen_places
+from .shaders import linear
+
+LINE, WARNING = linear(0.86, 0.92, 0.98), COLOURS[DOUBTFUL]
+"""Of the base mesh, and of its triangles that fold over."""
 
 _handles: list[object] = []
 
@@ -24,18 +32,31 @@ def _shows(context: Context) -> bool:
 
 
 def _draw_places() -> None:
-    """In the world: the marks."""
+    """In the world: the base mesh, and the marks over it."""
     context = bpy.context
     wanted = context.scene.facial_retarget.overlay
-    if not (wanted.show_points and _shows(context)):
+    if not ((wanted.show_points or wanted.show_base) and _shows(context)):
         return
     view, projection = gpu.matrix.get_model_view_matrix(), gpu.matrix.get_projection_matrix()
     for thing in shown_faces(context):
+        if wanted.show_base:
+            _draw_base(context, thing, view, projection)
         marks = face_marks(context, thing)
-        if len(marks.names):
+        if wanted.show_points and len(marks.names):
             hot = hovered().row if hovered().thing == thing.session_uid else -1
             size = marks.mark_size(context, max(thing.dimensions))
             draw_marks(marks.batch, view, projection, size, hot, flat=False)
+
+
+def _draw_base(context: Context, thing: Object, view: Matrix, projection: Matrix) -> None:
+    batches = base_batches(context, thing)
+    if batches is None:
+        return
+    scale = context.preferences.system.ui_scale
+    lines, folded = batches
+    draw_lines(lines, view, projection, scale, LINE, 0.75)
+    if folded is not None:
+        draw_lines(folded, view, projection, 2.5 * scale, WARNING, through=True)
 
 
 def _draw_pixels() -> None:
@@ -49,6 +70,8 @@ def _draw_pixels() -> None:
         _draw_names(context, scale, wanted.show_names)
     if wanted.show_diagram:
         draw_diagram(context)
+    if wanted.show_base:
+        draw_trouble(context, trouble())
 
 
 def _draw_names(context: Context, scale: float, every: bool) -> None:
@@ -88,6 +111,7 @@ def _full_name(marks: FaceMarks, row: int) -> str:
 @persistent
 def _forget(*_: object) -> None:
     forget()
+    base.forget()
 
 
 def register() -> None:
@@ -107,4 +131,4 @@ def unregister() -> None:
     bpy.app.handlers.load_pre.remove(_forget)
     while _handles:
         SpaceView3D.draw_handler_remove(_handles.pop(), "WINDOW")
-    forget()
+    _forget()

@@ -31,6 +31,33 @@ void main()
 }
 """
 
+_LINE_VERTEX = """
+void main()
+{
+  vec4 one = matrix * vec4(start, 1.0);
+  vec4 other = matrix * vec4(end, 1.0);
+  vec4 place = mix(one, other, side.x);
+  vec2 along = (other.xy / other.w - one.xy / one.w) * viewport;
+  float far = length(along);
+  vec2 across = (far > 1e-6) ? vec2(-along.y, along.x) / far : vec2(0.0);
+  off = side.y * (0.5 * width + 1.5);
+  /* Toward the viewer by some pixels, so that the surface beside a line does not cut into it. */
+  float nearer = 8.0 * place.w / (viewport.y * lens.x);
+  float depth = (place.z + lens.y * nearer) / max(place.w + lens.z * nearer, 1e-6);
+  gl_Position = vec4(place.xy + across * off * 2.0 / viewport * place.w, max(depth, -1.0) * place.w, place.w);
+}
+"""
+
+_LINE_FRAGMENT = """
+void main()
+{
+  float core = clamp(0.5 * width + 0.5 - abs(off), 0.0, 1.0);
+  float edge = 0.5 * clamp(0.5 * width + 1.5 - abs(off), 0.0, 1.0);
+  vec4 paint = vec4(vec3(0.004), 1.0) * edge;
+  fragColor = (paint * (1.0 - core) + vec4(colour, 1.0) * core) * strength;
+}
+"""
+
 _MARK_FRAGMENT = """
 vec4 paint;
 
@@ -118,6 +145,28 @@ def mark_shader() -> GPUShader:
     info.fragment_out(0, "VEC4", "fragColor")
     info.vertex_source(_MARK_VERTEX)
     info.fragment_source(_MARK_FRAGMENT)
+    return gpu.shader.create_from_info(info)
+
+
+@cache
+def line_shader() -> GPUShader:
+    """Lines from `start` to `end`: `side` says which end, 0 or 1, and which side of the line, -1 or 1."""
+    info = GPUShaderCreateInfo()
+    info.push_constant("MAT4", "matrix")
+    info.push_constant("VEC3", "lens")
+    info.push_constant("VEC3", "colour")
+    info.push_constant("VEC2", "viewport")
+    info.push_constant("FLOAT", "width")
+    info.push_constant("FLOAT", "strength")
+    info.vertex_in(0, "VEC3", "start")
+    info.vertex_in(1, "VEC3", "end")
+    info.vertex_in(2, "VEC2", "side")
+    passed = GPUStageInterfaceInfo("facial_retarget_line")
+    passed.no_perspective("FLOAT", "off")
+    info.vertex_out(passed)
+    info.fragment_out(0, "VEC4", "fragColor")
+    info.vertex_source(_LINE_VERTEX)
+    info.fragment_source(_LINE_FRAGMENT)
     return gpu.shader.create_from_info(info)
 
 

@@ -1,12 +1,14 @@
 """What is drawn of the points: marks where they are, told apart, names under the mouse, nothing when it is off."""
 
+from types import SimpleNamespace
+
 import bpy
 import numpy as np
-from drive import area, look, move, on_screen, override, region, screenshot, wait
+from drive import area, look, move, on_screen, override, region, screenshot, wait, wait_until
 from stage import add_face, choose, clear, part, point_places
 
-BLUE, ORANGE = np.array([64, 184, 255]), np.array([255, 140, 26])
-"""Of placed points, and of the selected one's ring."""
+BLUE, ORANGE, YELLOW = np.array([64, 184, 255]), np.array([255, 140, 26]), np.array([255, 214, 0])
+"""Of placed points, of the selected one's ring, of what is doubtful."""
 
 
 def picture(name: str) -> np.ndarray:
@@ -134,6 +136,47 @@ def scenario():
     task.overlay.show_names = True
     yield from look("FRONT", [actor])
     screenshot("all_names")
+
+    task.overlay.show_names = False
+
+    # The base mesh comes over both faces; where it folds over, its triangles and their points warn.
+    points.write_points(ape, part("demo").targets()[0].face.points)
+    base = part("viewport.base")
+    task.overlay.show_base = True
+    area().tag_redraw()
+    yield from wait_until(lambda: base.folded_names(actor) == frozenset() and base.lines_of(actor), "a base mesh")
+    yield from wait()
+    shown = picture("base_mesh")
+    assert len(spots(shown, YELLOW)) == 0
+    placed = actor.facial_retarget.points
+    one, other = (placed[name].vertices[:] for name in ("5.1", "9.1"))
+    placed["5.1"].vertices, placed["9.1"].vertices = other, one
+    area().tag_redraw()
+    yield from wait_until(lambda: base.folded_names(actor), "folded triangles")
+    yield from wait()
+    assert {"5.1", "9.1"} <= base.folded_names(actor)
+    assert len(spots(picture("folded"), YELLOW)) > 100
+    assert "5.1" in part("viewport.faces").face_marks(view_context(), actor).doubts
+
+    # With too few points the view says why there is no base mesh.
+    points.write_points(actor, every.subset(every.names[:9]))
+    area().tag_redraw()
+    yield from wait_until(base.trouble, "why there is none")
+    assert "9 feature points in common" in base.trouble()
+    yield from wait()
+    screenshot("too_few_points")
+    task.overlay.show_base = False
+
+
+def view_context() -> SimpleNamespace:
+    """What drawing asks of the context."""
+    editor = area()
+    return SimpleNamespace(
+        active_object=bpy.context.view_layer.objects.active,
+        view_layer=bpy.context.view_layer,
+        scene=bpy.context.scene,
+        space_data=editor.spaces.active,
+    )
 
 
 def spots_in_all(shown: np.ndarray) -> int:

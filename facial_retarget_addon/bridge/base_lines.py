@@ -1,0 +1,53 @@
+"""The base mesh of source and target as lines on both faces, worked out on a thread."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from zlib import crc32
+
+from bpy.types import Object, PropertyGroup
+
+from ..core.arrays import Progress
+from ..core.base.base_mesh import base_mesh
+from ..core.base.surface_lines import SurfaceLines, surface_lines
+from .base_object import read_base
+from .meshes import neutral_mesh, read_polygons, read_positions, stretch
+from .points import read_points
+from .raycast import available_caster
+
+Lines = dict[int, SurfaceLines]
+"""Lines of each face, by the object's session."""
+
+
+def shape_stamp(thing: Object) -> int:
+    """Tells whether an object's Basis, as we see it, has been changed."""
+    counts, corners = read_polygons(thing.data)
+    stamp = crc32(read_positions(thing.data).tobytes())
+    for values in (counts, corners, stretch(thing).round(4)):
+        stamp = crc32(values.tobytes(), stamp)
+    return stamp
+
+
+def base_lines_work(task: PropertyGroup) -> Callable[[Progress], Lines]:
+    """What makes the lines of the task's faces on a thread: all Blender data is read here, before it runs.
+
+    Source and target are taken at their Basis.
+
+    Raises
+    ------
+    RetargetError : for bad points or triangles; the work raises it where no base mesh can be made.
+    """
+    things = (task.source, task.target)
+    (source, source_points), (target, target_points) = ((neutral_mesh(thing), read_points(thing)) for thing in things)
+    own = None if task.base is None else read_base(task.base)
+    sessions = [thing.session_uid for thing in things]
+    caster = available_caster()
+
+    def work(_: Progress) -> Lines:
+        base = base_mesh(source, source_points, target, target_points, own, caster)
+        return {
+            session: surface_lines(mesh, points.subset(base.names), base.faces)
+            for session, mesh, points in zip(sessions, (source, target), (source_points, target_points), strict=True)
+        }
+
+    return work
