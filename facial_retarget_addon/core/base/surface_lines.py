@@ -57,7 +57,8 @@ def surface_lines(mesh: TriMesh, points: FeaturePoints, faces: IntArray) -> Surf
 
     def between(values: FloatArray) -> FloatArray:
         """(E, PIECES - 1, 3) values (P, 3) along each edge, without its ends."""
-        along: FloatArray = (1 - shares) * values[ends[:, 0], None] + shares * values[ends[:, 1], None]
+        start, gap = values[ends[:, :1]], values[ends[:, 1:]] - values[ends[:, :1]]
+        along: FloatArray = start + shares * gap
         return along
 
     normals = unit_vectors(between(placed.normals)).reshape(-1, 3)
