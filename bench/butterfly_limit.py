@@ -13,7 +13,8 @@ import numpy as np
 from facial_retarget_addon.core.arrays import IntArray
 from facial_retarget_addon.core.levels.butterfly import butterfly
 from facial_retarget_addon.core.levels.subdivision import Scheme, hierarchy, loop
-from facial_retarget_addon.files.pages.pictures import Image, contact_sheet, png_bytes, shade
+from facial_retarget_addon.files.images import png_bytes
+from facial_retarget_addon.files.pages.pictures import Image, contact_sheet, shade
 
 VALENCES = (4, 5, 7)
 RINGS, LEVELS = 2, 5

@@ -22,7 +22,8 @@ from facial_retarget_addon.core.methods.base import Retargeter
 from facial_retarget_addon.core.methods.motion_cloning import fit
 from facial_retarget_addon.core.methods.settings import MotionCloningSettings
 from facial_retarget_addon.core.problem import Face, Problem
-from facial_retarget_addon.files.pages.pictures import Image, contact_sheet, png_bytes, shade
+from facial_retarget_addon.files.images import png_bytes
+from facial_retarget_addon.files.pages.pictures import Image, contact_sheet, shade
 from facial_retarget_addon.files.points import read_points
 
 from .real_pair import DATA

@@ -23,7 +23,8 @@ from facial_retarget_addon.core.methods import wavelet
 from facial_retarget_addon.core.methods.settings import WaveletSettings
 from facial_retarget_addon.core.points import FeaturePoints, place_matrix
 from facial_retarget_addon.core.problem import Face, Problem
-from facial_retarget_addon.files.pages.pictures import Image, contact_sheet, png_bytes, shade
+from facial_retarget_addon.files.images import png_bytes
+from facial_retarget_addon.files.pages.pictures import Image, contact_sheet, shade
 
 LEVELS = 3
 VERTICES, TRIANGLES = 2964, 5760

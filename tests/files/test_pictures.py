@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from facial_retarget_addon.core.errors import RetargetError
-from facial_retarget_addon.files.pages.pictures import BACKGROUND, Camera, contact_sheet, mark, png_bytes, shade
+from facial_retarget_addon.files.images import png_bytes
+from facial_retarget_addon.files.pages.pictures import BACKGROUND, Camera, contact_sheet, mark, shade
 
 
 def ball(rings=24, sides=48):

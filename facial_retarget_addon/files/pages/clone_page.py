@@ -12,9 +12,10 @@ from ...core.mpeg4.head import gives_axes
 from ...core.parts.known_head import know_head
 from ...core.problem import Face
 from ...core.shapes.counterparts import feature_of
+from ..images import png_bytes
 from .lettering import lettered
 from .page import Figure, Section, html_page
-from .pictures import SKIN, Image, contact_sheet, png_bytes
+from .pictures import SKIN, Image, contact_sheet
 from .report_pictures import Portrait, upright
 
 SIZE = (240, 240)

@@ -8,8 +8,9 @@ from typing import Any
 from ...core.acting.fap_face import FapFace
 from ...core.arrays import FloatArray, Progress, no_progress
 from ..frames import FrameBlocks
+from ..images import png_bytes
 from .page import Figure, Section, html_page
-from .pictures import Image, png_bytes
+from .pictures import Image
 from .report_pictures import Portrait, liveliest
 
 PICTURES = 12

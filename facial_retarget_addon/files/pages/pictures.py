@@ -1,13 +1,11 @@
 """Pictures of meshes without Blender: for reports, and for our own eyes.
 
 An image is an (h, w, 3) uint8 array, top row first. Rays go through Embree, light is a key from the
-side, a fill and a rim, so that wrinkles cast their shading; PNG needs nothing but zlib.
+side, a fill and a rim, so that wrinkles cast their shading.
 """
 
 from __future__ import annotations
 
-import struct
-import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -169,18 +167,6 @@ def contact_sheet(pictures: Sequence[Image], columns: int, gap: int = 4) -> Imag
         top, left = (i // columns) * (height + gap), (i % columns) * (width + gap)
         sheet[top : top + height, left : left + width] = picture
     return sheet
-
-
-def png_bytes(image: Image) -> bytes:
-    """The image as a PNG file (RGB, 8 bits a channel)."""
-    height, width, _ = image.shape
-    lines = np.zeros((height, 1 + 3 * width), np.uint8)
-    lines[:, 1:] = image.reshape(height, -1)
-    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
-    chunks = ((b"IHDR", header), (b"IDAT", zlib.compress(lines.tobytes(), 6)), (b"IEND", b""))
-    return b"\x89PNG\r\n\x1a\n" + b"".join(
-        struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data)) for kind, data in chunks
-    )
 
 
 def _covered(camera: Camera, vertices: FloatArray) -> tuple[IntArray, IntArray]:

@@ -15,7 +15,8 @@ from ...core.points import FeaturePoints
 from ...core.problem import Face, Problem
 from ...core.raycast import CasterFactory, EmbreeCaster
 from ..frames import FrameBlocks
-from .pictures import SKIN, Camera, Image, mark, png_bytes, shade
+from ..images import png_bytes
+from .pictures import SKIN, Camera, Image, mark, shade
 
 PICTURE_SIZE = (360, 360)
 MARGIN = 0.12
