@@ -7,6 +7,7 @@ from facial_retarget_addon.core.errors import RetargetError
 from facial_retarget_addon.core.mesh import TriMesh
 from facial_retarget_addon.core.normal_maps.chart import disc_chart
 from facial_retarget_addon.core.normal_maps.normal_map import fit_normal_map
+from facial_retarget_addon.core.normal_maps.strain import compression, wrinkle_mask
 from facial_retarget_addon.core.normal_maps.surface import TexturedSurface
 from facial_retarget_addon.core.normal_maps.tangents import TangentSpace
 from facial_retarget_addon.core.normal_maps.texels import margin, rasterise, tiles
@@ -148,3 +149,23 @@ def test_a_chart_of_a_surface_with_holes_has_no_overlaps() -> None:
     assert area.sum() / 2 < np.pi / 4
     with pytest.raises(RetargetError, match="0 borders"):
         disc_chart(TriMesh(np.eye(4)[:, :3], np.array([[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]])))
+
+
+def test_compression_is_what_the_skin_loses_in_length() -> None:
+    mesh = cap(17).mesh
+    squeezed = mesh.vertices * [0.7, 1.0, 1.0]
+    lost = compression(mesh, squeezed - mesh.vertices)
+    middle = np.linalg.norm(mesh.vertices[:, :2], axis=1) < 0.15
+    np.testing.assert_allclose(lost[middle], 0.3, atol=0.02)
+    # Turned and moved, nothing is lost; stretched, neither.
+    turn = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))[0]
+    np.testing.assert_allclose(compression(mesh, mesh.vertices @ turn.T + 5 - mesh.vertices), 0, atol=1e-9)
+    np.testing.assert_allclose(compression(mesh, 0.4 * mesh.vertices), 0, atol=1e-9)
+
+
+def test_a_wrinkle_mask_rises_smoothly_from_nothing_to_full() -> None:
+    mask = wrinkle_mask(np.linspace(0, 0.3, 301), 0.02, 0.15)
+    assert mask[20] == 0
+    assert mask[151] == 1
+    np.testing.assert_allclose(mask[85], 0.5, atol=1e-9)
+    assert (np.diff(mask) >= 0).all()
