@@ -23,6 +23,7 @@ from bpy.types import Context, Object, PropertyGroup, Scene, WindowManager
 
 from .core.methods import METHODS
 from .core.methods.settings import SETTINGS
+from .core.point_sets import POINT_SETS, point_label, point_meaning
 from .preview_state import STATE
 
 LEVEL_GAINS = 6
@@ -33,9 +34,21 @@ def _is_mesh(_: PropertyGroup, candidate: Object) -> bool:
     return candidate.type == "MESH"
 
 
+def _title(point: PropertyGroup) -> str:
+    label = point_label(point.name)
+    return label if label == point.name else f"{point.name}  {label}"
+
+
+def _meaning(point: PropertyGroup) -> str:
+    meaning = point_meaning(point.name)
+    return meaning[:1].upper() + meaning[1:]
+
+
 class FACIAL_RETARGET_PG_feature_point(PropertyGroup):
     """A named place on the object's surface: three vertices and their weights. `name` is inherited."""
 
+    title: StringProperty(get=_title, description="Its name, and what a person calls it")
+    meaning: StringProperty(get=_meaning, description="Where on a face it lies")
     vertices: IntVectorProperty(name="Vertices", size=3, min=0, description="The vertices that hold the point")
     weights: FloatVectorProperty(
         name="Weights", size=3, default=(1.0, 0.0, 0.0), precision=4, description="How much of each vertex"
@@ -44,10 +57,14 @@ class FACIAL_RETARGET_PG_feature_point(PropertyGroup):
     anchored: BoolProperty(description="The anchor says where the point is when the topology changes")
     anchor: FloatVectorProperty(size=3, subtype="XYZ", description="Its place on the mesh at rest")
     anchor_normal: FloatVectorProperty(size=3, subtype="XYZ", description="The surface's normal there")
+    doubt: StringProperty(name="Doubt", description="Why the point may be in the wrong place; empty if it is not")
 
 
 class FACIAL_RETARGET_PG_point_name(PropertyGroup):
     """The name of a feature point that has no place. `name` is inherited."""
+
+    title: StringProperty(get=_title, description="Its name, and what a person calls it")
+    meaning: StringProperty(get=_meaning, description="Where on a face it lies")
 
 
 POINT_SET_ITEMS = [
@@ -93,6 +110,27 @@ class FACIAL_RETARGET_PG_cloned_key(PropertyGroup):
     note: StringProperty(name="Figures", description="What the report says of it")
 
 
+POINT_LISTS = [
+    ("PLACED", "Placed", "Feature points that the face has"),
+    ("PROPOSED", "Proposed", "Feature points that are predicted, and count once they are accepted"),
+    ("SKIPPED", "Skipped", "Feature points of the set that this face does without"),
+]
+
+
+def _set_chosen(face: PropertyGroup, context: Context) -> None:
+    """Propose what the other set has, and nothing that it does not have."""
+    from .bridge.point_prediction import update_predictions
+
+    if face.id_data.type == "MESH":
+        update_predictions(face.id_data)
+
+
+def _has_stale_points(face: PropertyGroup) -> bool:
+    from .bridge.topology import has_stale_points
+
+    return has_stale_points(face.id_data)
+
+
 class FACIAL_RETARGET_PG_face(PropertyGroup):
     """What an object knows as a face."""
 
@@ -101,11 +139,20 @@ class FACIAL_RETARGET_PG_face(PropertyGroup):
     proposals: CollectionProperty(
         type=FACIAL_RETARGET_PG_feature_point, description="Feature points that are predicted, and not placed"
     )
+    active_proposal: IntProperty(name="Active proposal", description="The proposal that is chosen in the list")
+    active_skipped: IntProperty(name="Active skipped point", description="The skipped point that is chosen in the list")
+    point_list: EnumProperty(name="List", items=POINT_LISTS, description="Which feature points the list shows")
+    stale_points: BoolProperty(
+        name="Mesh Has Changed",
+        get=_has_stale_points,
+        description="Vertices were added, removed or renumbered since the feature points were placed",
+    )
     point_set: EnumProperty(
         name="Set",
         items=POINT_SET_ITEMS,
         default="FMC",
         description="Which feature points the face shall have",
+        update=_set_chosen,
     )
     skipped: CollectionProperty(
         type=FACIAL_RETARGET_PG_point_name, description="Feature points of the set that this face shall not have"
@@ -115,6 +162,17 @@ class FACIAL_RETARGET_PG_face(PropertyGroup):
     cloned: CollectionProperty(type=FACIAL_RETARGET_PG_cloned_key)
     active_cloned: IntProperty(name="Active cloned shape key")
     head: PointerProperty(name="Head", type=Object, description="The empty that shows how the head turns")
+
+    @property
+    def set_size(self) -> int:
+        """Points that the face shall have: those of its set, but for those that are skipped."""
+        return sum(info.name not in self.skipped for info in POINT_SETS[self.point_set])
+
+    @property
+    def placed_of_set(self) -> int:
+        """How many of these are placed."""
+        placed = set(self.points.keys()) - set(self.skipped.keys())
+        return sum(info.name in placed for info in POINT_SETS[self.point_set])
 
 
 EXAMPLE_STATES = [

@@ -33,10 +33,12 @@ class FACIAL_RETARGET_OT_add_point(OnFace, Operator):
     def execute(self, context: Context) -> set[str]:
         """Add the point."""
         from ..facial_retarget_addon.bridge import points
+        from ..facial_retarget_addon.bridge.point_prediction import update_predictions
 
         thing = context.active_object
         if self.place == "VERTEX":
             points.add_point_at_vertex(thing, self.name, points.selected_vertex(thing))
         else:
             points.add_point_near(thing, self.name, context.scene.cursor.location)
+        update_predictions(thing)
         return {"FINISHED"}

@@ -24,12 +24,14 @@ class FACIAL_RETARGET_OT_load_points(OnFace, Operator, ImportHelper):
     def execute(self, context: Context) -> set[str]:
         """Read, check against the mesh, then replace."""
         from ..facial_retarget_addon.bridge.meshes import neutral_mesh
+        from ..facial_retarget_addon.bridge.point_prediction import update_predictions
         from ..facial_retarget_addon.bridge.points import write_points
         from ..facial_retarget_addon.files.points import read_points
 
         thing = context.active_object
         points = read_points(Path(self.filepath), neutral_mesh(thing))
         write_points(thing, points)
+        update_predictions(thing)
         self.report({"INFO"}, f"{len(points)} feature points on {thing.name}")
         return {"FINISHED"}
 

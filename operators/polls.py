@@ -42,6 +42,20 @@ class OnPoints(OnFace):
         return True
 
 
+class OnProposals(OnFace):
+    """For operators on the active mesh object and its proposed feature points."""
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        """As `OnFace`; points must be proposed."""
+        if not super().poll(context):
+            return False
+        if not len(context.active_object.facial_retarget.proposals):
+            cls.poll_message_set("No points are proposed: place a few, or press Guess Points")
+            return False
+        return True
+
+
 class OnTask:
     """For operators on source and target."""
 

@@ -19,10 +19,12 @@ class FACIAL_RETARGET_OT_refresh_points(OnFace, Operator):
     @tells_user
     def execute(self, context: Context) -> set[str]:
         """Refresh, and report."""
+        from ..facial_retarget_addon.bridge.point_prediction import update_predictions
         from ..facial_retarget_addon.bridge.points import refresh_points
 
         thing = context.active_object
         settled = refresh_points(thing)
+        update_predictions(thing)
         said = []
         if settled.moved:
             worst = sorted(settled.moved, key=settled.moved.get, reverse=True)

@@ -22,7 +22,9 @@ from . import (
 CLASSES = (
     next_step.FACIAL_RETARGET_PT_next,
     faces.FACIAL_RETARGET_PT_faces,
+    feature_points.FACIAL_RETARGET_UL_points,
     feature_points.FACIAL_RETARGET_PT_points,
+    feature_points.FACIAL_RETARGET_PT_base,
     head_parts.FACIAL_RETARGET_UL_parts,
     head_parts.FACIAL_RETARGET_PT_parts,
     overlay.FACIAL_RETARGET_PT_shown,

@@ -21,6 +21,7 @@ from ..core.errors import RetargetError
 from ..core.mesh import TriMesh
 from ..core.points import FeaturePoints
 from .meshes import read_polygons, read_positions
+from .topology import topology_of
 
 REST = ".facial_retarget_rest"
 """The attribute of the rest positions; the dot keeps it out of the artist's lists."""
@@ -47,18 +48,6 @@ class Settled(NamedTuple):
     lost: tuple[str, ...]
 
 
-def topology_of(mesh: Mesh) -> str:
-    """What tells whether vertex numbers still mean the same: vertices, polygons, and which polygon has which vertex."""
-    if mesh.is_editmode:
-        corners = read_polygons(mesh)[1].astype(np.int32)
-    else:
-        # As a block, 20 times faster than loop after loop.
-        corners = np.empty(len(mesh.loops), np.int32)
-        if len(corners):
-            mesh.attributes[".corner_vert"].data.foreach_get("value", corners)
-    return f"{len(mesh.vertices)} {len(mesh.polygons)} {crc32(corners.tobytes()):08x}"
-
-
 def anchor_points(thing: Object, stored: Iterable[PropertyGroup]) -> None:
     """Note where points are on the mesh, so that they are found again.
 
@@ -74,11 +63,6 @@ def anchor_points(thing: Object, stored: Iterable[PropertyGroup]) -> None:
             normals = [thing.data.vertices[vertex].normal for vertex in point.vertices]
             point.anchor = _mean(corners, point.weights)
             point.anchor_normal = _mean(normals, point.weights)
-
-
-def is_stale(point: PropertyGroup, topology: str) -> bool:
-    """Whether a stored point was placed on another topology; files of before anchors have none and count as fresh."""
-    return point.topology not in ("", topology)
 
 
 def settle(thing: Object, points: FeaturePoints, stored: list[PropertyGroup], stale: list[bool]) -> Settled:

@@ -12,7 +12,8 @@ from ..core.closest_point import SurfaceFinder
 from ..core.errors import RetargetError
 from ..core.points import FeaturePoints
 from .meshes import from_face_space, neutral_mesh, to_face_space
-from .point_anchors import Settled, anchor_points, is_stale, renew_rest, settle, topology_of
+from .point_anchors import Settled, anchor_points, renew_rest, settle
+from .topology import has_stale_points, is_stale, topology_of
 
 
 def read_points(thing: Object) -> FeaturePoints:
@@ -136,7 +137,8 @@ def place_points(thing: Object, points: FeaturePoints) -> None:
     face = thing.facial_retarget
     if "" in points.names:
         raise RetargetError("the new feature point has no name, expected an FDP number or a free name")
-    _refresh_others(thing, set(points.names))
+    if not thing.data.is_editmode:
+        _refresh_others(thing, set(points.names))
     for name, vertices, weights in zip(points.names, points.vertices, points.weights, strict=True):
         row = face.points.find(name)
         if row < 0:
@@ -151,16 +153,15 @@ def place_points(thing: Object, points: FeaturePoints) -> None:
 
 def _refresh_others(thing: Object, placed: set[str]) -> None:
     """Bring the points that are not about to be placed onto the mesh as it is now, if it has changed."""
-    face = thing.facial_retarget
-    topology = topology_of(thing.data)
-    if not thing.data.is_editmode and any(is_stale(point, topology) for point in face.points):
-        lost = [name for name in settled_points(thing).lost if name not in placed]
-        if lost:
-            raise RetargetError(
-                f"the mesh of object {thing.name!r} has changed, and the surface below feature points "
-                f"{', '.join(map(repr, lost))} is gone; press Refresh Points first"
-            )
-        refresh_points(thing)
+    if not has_stale_points(thing):
+        return
+    lost = [name for name in settled_points(thing).lost if name not in placed]
+    if lost:
+        raise RetargetError(
+            f"the mesh of object {thing.name!r} has changed, and the surface below feature points "
+            f"{', '.join(map(repr, lost))} is gone; press Refresh Points first"
+        )
+    refresh_points(thing)
 
 
 def remove_point(thing: Object, name: str) -> None:
@@ -209,6 +210,13 @@ def point_positions(thing: Object) -> FloatArray:
     """(P, 3) feature points on the neutral, in the object's own coordinates."""
     points = read_points(thing)
     return from_face_space(thing, points.positions(neutral_mesh(thing).vertices))
+
+
+def want_point(thing: Object, name: str) -> None:
+    """Take back that a face does without a point; RetargetError if it was not skipped."""
+    if name not in thing.facial_retarget.skipped:
+        raise RetargetError(f"object {thing.name!r} has not skipped the feature point {name!r}")
+    _drop(thing.facial_retarget.skipped, name)
 
 
 def _place_new(thing: Object, name: str, vertices: IntArray, weights: FloatArray) -> None:

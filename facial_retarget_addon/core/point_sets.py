@@ -180,3 +180,17 @@ def point_label(name: str) -> str:
     if name in POINT_INFOS:
         return POINT_INFOS[name].label
     return FDPS[name].meaning.capitalize() if name in FDPS else name
+
+
+def point_meaning(name: str) -> str:
+    """Where the point of a name lies, "" for names of one's own."""
+    if name in POINT_INFOS:
+        return POINT_INFOS[name].meaning
+    return FDPS[name].meaning if name in FDPS else ""
+
+
+def partner_of(name: str) -> str:
+    """The point of the other half of the face, "" for points of the middle line and names of one's own."""
+    if name in POINT_INFOS:
+        return POINT_INFOS[name].partner
+    return FDPS[name].partner if name in FDPS and FDPS[name].partner != name else ""

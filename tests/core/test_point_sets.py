@@ -15,7 +15,9 @@ from facial_retarget_addon.core.point_sets import (
     POINT_INFOS,
     POINT_SETS,
     next_point,
+    partner_of,
     point_label,
+    point_meaning,
 )
 from facial_retarget_addon.demo.landmarks import POINTS
 
@@ -90,9 +92,18 @@ def test_the_next_point_is_the_first_that_is_neither_placed_nor_skipped() -> Non
 
 
 def test_every_name_has_a_label() -> None:
+    assert point_meaning("cheek_l_1") == "left cheek beside the nose"
+    assert point_meaning("10.5") == "left ear lobe, bottom"
+    assert point_meaning("wart") == ""
     assert point_label("8.3") == "Left Mouth Corner"
     assert point_label("10.5") == "Left ear lobe, bottom"
     assert point_label("wart") == "wart"
+
+
+def test_partners_are_known_beyond_the_sets() -> None:
+    assert partner_of("8.3") == "8.4"
+    assert partner_of("10.5") == "10.6"
+    assert [partner_of(name) for name in ("9.3", "7.1", "wart")] == ["", "", ""]
 
 
 def test_the_sets_load_without_numpy() -> None:

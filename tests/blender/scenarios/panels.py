@@ -3,7 +3,7 @@
 from types import SimpleNamespace
 
 import bpy
-from stage import NAME, donor_pair, empty_scene
+from stage import NAME, donor_pair, empty_scene, part
 
 
 class Recorder:
@@ -44,6 +44,13 @@ class InSidebar:
         return getattr(bpy.context, name)
 
 
+LISTS = {
+    "PLACED": ("points", "active_point"),
+    "PROPOSED": ("proposals", "active_proposal"),
+    "SKIPPED": ("skipped", "active_skipped"),
+}
+
+
 def draw_all() -> None:
     """Draw all panels and all lists."""
     for panel in panels:
@@ -57,6 +64,11 @@ def draw_all() -> None:
             getattr(bpy.types, f"FACIAL_RETARGET_UL_{kind}").draw_item(
                 None, bpy.context, Recorder(), data, item, 0, data
             )
+    for shown in LISTS:
+        face.point_list = shown
+        stored, chosen = LISTS[shown]
+        for item in getattr(face, stored):
+            bpy.types.FACIAL_RETARGET_UL_points.draw_item(None, bpy.context, Recorder(), face, item, 0, face, chosen)
 
 
 empty_scene()
@@ -72,6 +84,10 @@ for active in (None, task.source, task.target):
     bpy.context.view_layer.objects.active = active
     draw_all()
 task.target.facial_retarget.parts.add().thing = task.source
+points = part("bridge.points")
+points.skip_point(task.target, "11.1")
+points.remove_point(task.target, "2.1")
+points.write_proposals(task.target, points.read_points(task.source).subset(["2.1"]))
 task.target.facial_retarget.cloned.add().name = "joy"
 bpy.ops.facial_retarget.create_examples()
 bpy.ops.facial_retarget.sculpt_example(example="fear")
