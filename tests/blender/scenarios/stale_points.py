@@ -160,7 +160,8 @@ assert thing.facial_retarget.proposals.keys() == ["at 50"]
 assert points.read_proposals(thing).names == ("at 50",)
 bpy.ops.ed.undo()
 thing = bpy.data.objects["face"]
-assert "at 50" in thing.facial_retarget.points and not len(thing.facial_retarget.proposals)
+assert "at 50" in thing.facial_retarget.points
+assert not len(thing.facial_retarget.proposals)
 bpy.ops.ed.redo()
 thing = bpy.data.objects["face"]
 assert "at 50" not in thing.facial_retarget.points
