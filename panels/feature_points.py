@@ -72,7 +72,9 @@ class FACIAL_RETARGET_PT_points(Step, Panel):
         row = column.row(align=True)
         row.operator("facial_retarget.accept_points", icon="CHECKMARK")
         row.operator("facial_retarget.clear_proposals", text="", icon="X")
-        row = layout.row(align=True)
+        column = layout.column(align=True)
+        column.operator("facial_retarget.copy_points", icon="COPYDOWN")
+        row = column.row(align=True)
         row.operator("facial_retarget.load_points", text="Load", icon="IMPORT")
         row.operator("facial_retarget.save_points", text="Save", icon="EXPORT")
 

@@ -21,8 +21,8 @@ from facial_retarget_addon.bridge.meshes import neutral_mesh, new_face, read_pol
 from facial_retarget_addon.bridge.points import write_points
 from facial_retarget_addon.bridge.retargeting import retarget_steps
 from facial_retarget_addon.files.frames import read_frames
-from facial_retarget_addon.files.mesh_file import MeshFile
 from facial_retarget_addon.files.images import png_bytes
+from facial_retarget_addon.files.mesh_file import MeshFile
 from facial_retarget_addon.files.pages.pictures import contact_sheet
 from facial_retarget_addon.files.pages.report_pictures import liveliest
 from facial_retarget_addon.files.points import read_points
