@@ -23,7 +23,7 @@ from bpy.types import Context, Object, PropertyGroup, Scene, WindowManager
 
 from .core.methods import METHODS
 from .core.methods.settings import SETTINGS
-from .core.point_sets import POINT_SETS, point_label, point_meaning
+from .core.point_sets import POINT_SETS, next_point, point_label, point_meaning
 from .preview_state import STATE
 
 LEVEL_GAINS = 6
@@ -173,6 +173,11 @@ class FACIAL_RETARGET_PG_face(PropertyGroup):
         """How many of these are placed."""
         placed = set(self.points.keys()) - set(self.skipped.keys())
         return sum(info.name in placed for info in POINT_SETS[self.point_set])
+
+    @property
+    def turn(self) -> str:
+        """The name of the point whose turn it is to be placed; "" if none of the set is left."""
+        return next_point(self.point_set, self.points.keys(), self.skipped.keys()) or ""
 
 
 EXAMPLE_STATES = [
@@ -385,6 +390,9 @@ class FACIAL_RETARGET_PG_task(PropertyGroup):
         type=Object,
         poll=_is_mesh,
         description="A base mesh of your own: show the base mesh, change its triangles, choose it here",
+    )
+    mirror_points: BoolProperty(
+        name="X Mirror", description="What you do with a point happens to its partner on the other half of the face too"
     )
     examples: CollectionProperty(type=FACIAL_RETARGET_PG_example)
     active_example: IntProperty(name="Active example")

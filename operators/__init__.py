@@ -10,6 +10,7 @@ from . import (
     clone_shapes,
     copy_points,
     create_examples,
+    drop_point,
     export_gltf,
     fap_controls,
     head_parts,
@@ -18,6 +19,7 @@ from . import (
     make_examples,
     make_shapes,
     motion,
+    place_point,
     points_files,
     predicted_points,
     preview,
@@ -28,6 +30,7 @@ from . import (
     shape_files,
     show_base,
     show_levels,
+    skip_point,
     stop,
 )
 
@@ -44,6 +47,9 @@ CLASSES = (
     predicted_points.FACIAL_RETARGET_OT_want_point,
     refresh_points.FACIAL_RETARGET_OT_refresh_points,
     copy_points.FACIAL_RETARGET_OT_copy_points,
+    place_point.FACIAL_RETARGET_OT_place_point,
+    drop_point.FACIAL_RETARGET_OT_drop_point,
+    skip_point.FACIAL_RETARGET_OT_skip_point,
     head_parts.FACIAL_RETARGET_OT_add_parts,
     head_parts.FACIAL_RETARGET_OT_remove_part,
     show_base.FACIAL_RETARGET_OT_show_base,

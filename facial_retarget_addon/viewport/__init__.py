@@ -1,8 +1,8 @@
 """What an artist handles and sees in the 3D view: the feature-point tool, and what is drawn over the faces."""
 
-from . import changes, hover, overlay
+from . import changes, hover, overlay, tool
 
-PARTS = (changes, hover, overlay)
+PARTS = (changes, hover, overlay, tool)
 
 
 def register() -> None:

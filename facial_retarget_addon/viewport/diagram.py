@@ -16,7 +16,7 @@ from ..core.point_sets import DIAGRAM_HIGH, DIAGRAM_LOW, POINT_INFOS, POINT_SETS
 from .face_lines import face_lines
 from .labels import draw_boxes, draw_text, text_width
 from .marks import PLACED, SELECTED, draw_marks, mark_batch
-from .state import active_face, turn
+from .state import active_face
 
 WIDTH, MARGIN, INSET = 168.0, 12.0, 10.0
 """Of the panel; its distance from the region's edges; of its contents from its own edges. Pixels at a UI scale of 1."""
@@ -29,7 +29,11 @@ _LEFT, _RIGHT, _LOW, _HIGH = -1.55, 1.55, DIAGRAM_LOW[1] - 0.05, DIAGRAM_HIGH[1]
 def draw_diagram(context: Context) -> None:
     """Draw it for the active face, unless all its points are placed or the region is too small."""
     thing = active_face(context)
-    name = turn(thing) if thing is not None and context.mode == "OBJECT" and _is_face(context, thing) else ""
+    name = (
+        thing.facial_retarget.turn
+        if thing is not None and context.mode == "OBJECT" and _is_face(context, thing)
+        else ""
+    )
     if not name or not _is_main(context):
         return
     face = thing.facial_retarget

@@ -6,8 +6,9 @@ from typing import Any, NamedTuple
 
 import bpy
 import numpy as np
-from bpy.types import Context, Gizmo, GizmoGroup
+from bpy.types import Context, Gizmo, GizmoGroup, Object
 
+from ..core.arrays import FloatArray
 from .faces import face_marks, shown_faces
 from .projection import screen_places
 
@@ -46,6 +47,21 @@ def point_at(context: Context, mouse: tuple[float, float]) -> Hovered:
     return found
 
 
+def point_under(context: Context, mouse: FloatArray) -> tuple[Object | None, str]:
+    """The face and the name of the point that is shown at a place (2,) of the region; None and "" without one."""
+    if points_are_shown(context):
+        found = point_at(context, (float(mouse[0]), float(mouse[1])))
+        for thing in shown_faces(context):
+            if thing.session_uid == found.thing:
+                return thing, face_marks(context, thing).names[found.row]
+    return None, ""
+
+
+def points_are_shown(context: Context) -> bool:
+    """Whether the view shows the marks of points at all."""
+    return context.scene.facial_retarget.overlay.show_points and context.space_data.overlay.show_overlays
+
+
 class FACIAL_RETARGET_GT_hover(Gizmo):
     """Follows the mouse."""
 
@@ -75,9 +91,7 @@ class FACIAL_RETARGET_GGT_hover(GizmoGroup):
     @classmethod
     def poll(cls, context: Context) -> bool:
         """Only where points are drawn."""
-        wanted = context.scene.facial_retarget.overlay
-        shown = wanted.show_points and context.space_data.overlay.show_overlays
-        return shown and next(shown_faces(context), None) is not None
+        return points_are_shown(context) and next(shown_faces(context), None) is not None
 
     def setup(self, context: Context) -> None:
         """Make the gizmo."""

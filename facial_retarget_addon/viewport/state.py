@@ -2,26 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from bpy.types import Context, Object
 
-from ..core.point_sets import next_point
+from ..core.errors import RetargetError
 
 TOOL = "facial_retarget.feature_points"
 """The feature-point tool's name."""
-
-
-@dataclass
-class Hand:
-    """What the mouse has to do with, as names of feature points of the active face; "" for none."""
-
-    hovered: str = ""
-    dragged: str = ""
-
-
-HAND = Hand()
-"""The one mouse there is."""
 
 
 def tool_is_active(context: Context) -> bool:
@@ -36,7 +22,9 @@ def active_face(context: Context) -> Object | None:
     return thing if thing is not None and thing.type == "MESH" else None
 
 
-def turn(thing: Object) -> str:
-    """The name of the point whose turn it is to be placed; "" if none of the set is left."""
-    face = thing.facial_retarget
-    return next_point(face.point_set, face.points.keys(), face.skipped.keys()) or ""
+def needed_face(context: Context) -> Object:
+    """The mesh object that the tool works on; RetargetError without one."""
+    thing = active_face(context)
+    if thing is None:
+        raise RetargetError("no mesh object is active: select the face first")
+    return thing

@@ -175,6 +175,21 @@ def drag(
     yield from wait(3)
 
 
+def hold(start: Sequence[float], end: Sequence[float], button: str = "LEFTMOUSE") -> Turns:
+    """Press and move, without a release."""
+    yield from move(*start)
+    _simulate(button, "PRESS")
+    yield
+    yield from move(*end)
+    yield from wait(3)
+
+
+def let_go(button: str = "LEFTMOUSE") -> Turns:
+    """Release what is held."""
+    _simulate(button, "RELEASE")
+    yield from wait(3)
+
+
 def key(kind: str, **modifiers: Any) -> Turns:
     """Press and release a key where the mouse is."""
     _simulate(kind, "PRESS", **modifiers)

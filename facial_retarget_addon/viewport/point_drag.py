@@ -1,0 +1,129 @@
+"""A point in the artist's hand: taken at the press of the mouse, slid, put down or put back."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from bpy.types import Context, Event
+
+from ..bridge.point_memory import put_back_points, remember_points
+from ..bridge.point_moves import PointMirror, put_point
+from ..bridge.shown_surface import ShownSurface, view_of
+from ..core.arrays import FloatArray
+from ..core.errors import RetargetError
+from ..core.sliding import Place, Slide
+from .hover import point_under
+from .state import needed_face
+
+TREMBLE = 3.0
+"""How far the mouse goes, in pixels, before a click becomes a drag."""
+
+
+class Pointed:
+    """A face as a view shows it, and what the mouse points at.
+
+    Attributes
+    ----------
+    thing : the face of the point under the mouse, or else the active one; it becomes the active object.
+    name : the point under the mouse, placed or proposed; "" for none.
+    mouse : (2,) in pixels.
+    """
+
+    def __init__(self, context: Context, event: Event) -> None:
+        """Look.
+
+        Raises
+        ------
+        RetargetError : if no face is active, or it is not seen in this view, or its surface cannot be read.
+        """
+        self.mouse = mouse_of(event)
+        thing, self.name = point_under(context, self.mouse)
+        self.thing = thing or needed_face(context)
+        context.view_layer.objects.active = self.thing
+        if not self.thing.visible_get(viewport=context.space_data):
+            raise RetargetError(f"{self.thing.name} is not shown in this view: unhide it, or leave local view")
+        self.view = view_of(context.region, context.region_data)
+        self._surface = ShownSurface(self.thing, context.evaluated_depsgraph_get())
+
+    @property
+    def graph(self) -> Any:
+        """(V, V) lengths of the edges, as they are shown."""
+        return self._surface.mesh.graph
+
+    def seen(self, pixel: FloatArray) -> Place | None:
+        """What of the face is seen at a pixel (2,)."""
+        return self._surface.under(self.view, pixel)
+
+    def place(self) -> Place | None:
+        """The place of the point under the mouse, or else what is seen of the face there."""
+        face = self.thing.facial_retarget
+        stored = face.points.get(self.name) or face.proposals.get(self.name)
+        return self._surface.place(stored.vertices[:], stored.weights[:]) if stored else self.seen(self.mouse)
+
+
+class PointDrag:
+    """One point on its way; `changed` says whether it is new or has moved."""
+
+    def __init__(self, context: Context, event: Event) -> None:
+        """Take the point under the mouse, or place the one whose turn it is.
+
+        Raises
+        ------
+        RetargetError : as `Pointed`; or if there is no point to place, or no face under the mouse.
+        """
+        self._at = Pointed(context, event)
+        self._thing = self._at.thing
+        self._slide: Slide | None = None
+        self._name = self._at.name or self._thing.facial_retarget.turn
+        place = self._at.place()
+        if place is None:
+            raise RetargetError(f"{self._thing.name} is not under the mouse")
+        if not self._name:
+            raise RetargetError("All points of the set are placed or skipped: drag them, or choose a larger set")
+        self._place = place
+        self.changed = self._name not in self._thing.facial_retarget.points
+        self._grip = self._at.view.pixels(place.position[None])[0] - self._at.mouse
+        self._memory = remember_points(self._thing)
+        self._mirror = PointMirror(self._thing) if context.scene.facial_retarget.mirror_points else None
+        self._put()
+
+    def move(self, event: Event) -> None:
+        """Slide to the mouse, once it has gone farther than a hand trembles."""
+        mouse = mouse_of(event)
+        if self._slide is None:
+            if np.linalg.norm(mouse - self._at.mouse) < TREMBLE:
+                return
+            self._slide = Slide(self._at.view, self._at.seen, self._at.graph, self._place)
+        self._place = self._slide.to(mouse + self._grip)
+        self.changed = True
+        self._put()
+
+    def put_down(self) -> tuple[str, FloatArray]:
+        """Leave the point where it is; returns its name and its position (3,) in world space."""
+        return self._name, self._place.position
+
+    def put_back(self) -> None:
+        """Everything is as before the press."""
+        put_back_points(self._thing, self._memory)
+
+    def _put(self) -> None:
+        if self.changed:
+            put_point(self._thing, self._name, self._place, self._mirror)
+        else:
+            face = self._thing.facial_retarget
+            face.active_point = face.points.find(self._name)
+
+
+def placed_point(context: Context, event: Event) -> str:
+    """The name of the placed point under the mouse, whose face becomes the active object; RetargetError without one."""
+    thing, name = point_under(context, mouse_of(event))
+    if thing is None or name not in thing.facial_retarget.points:
+        raise RetargetError("no placed point is under the mouse")
+    context.view_layer.objects.active = thing
+    return name
+
+
+def mouse_of(event: Event) -> FloatArray:
+    """(2,) where the mouse is, in pixels from the region's lower left corner."""
+    return np.array([event.mouse_region_x, event.mouse_region_y], np.float64)

@@ -1,0 +1,93 @@
+"""The feature-point tool in the 3D view's toolbar, and what the status bar says while it is chosen."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+from bpy.types import Context, Header, UILayout, WorkSpaceTool
+
+from ..core.point_sets import POINT_INFOS, point_label
+from .state import TOOL, active_face, tool_is_active
+
+
+class FACIAL_RETARGET_TOOL_points(WorkSpaceTool):
+    """Places feature points."""
+
+    bl_space_type = "VIEW_3D"
+    bl_context_mode = "OBJECT"
+    bl_idname = TOOL
+    bl_label = "Feature Points"
+    bl_description = (
+        "Click on the active face to place the point whose turn it is.\n"
+        "Drag a point along the surface, Ctrl-click removes it"
+    )
+    bl_icon = "ops.transform.vertex_random"
+    bl_cursor = "CROSSHAIR"
+    bl_keymap = (
+        ("facial_retarget.place_point", {"type": "LEFTMOUSE", "value": "PRESS"}, None),
+        ("facial_retarget.drop_point", {"type": "LEFTMOUSE", "value": "PRESS", "ctrl": True}, None),
+        ("facial_retarget.skip_point", {"type": "TAB", "value": "PRESS"}, None),
+        (
+            "facial_retarget.skip_point",
+            {"type": "TAB", "value": "PRESS", "shift": True},
+            {"properties": [("back", True)]},
+        ),
+        (
+            "wm.context_toggle",
+            {"type": "X", "value": "PRESS"},
+            {"properties": [("data_path", "scene.facial_retarget.mirror_points")]},
+        ),
+    )
+
+    def draw_settings(context: Context, layout: UILayout, tool: Any) -> None:  # noqa: N805 Blender calls it so
+        """The tool's settings, and whose turn it is, in the header."""
+        thing = active_face(context)
+        if thing is None:
+            layout.label(text="Select a face", icon="INFO")
+            return
+        face = thing.facial_retarget
+        layout.prop(face, "point_set")
+        layout.prop(context.scene.facial_retarget, "mirror_points", text="X", icon="MOD_MIRROR", toggle=True)
+        layout.label(text=_whose_turn(face.turn), icon="DECORATE_KEYFRAME")
+
+
+def _whose_turn(name: str) -> str:
+    if not name:
+        return "All points of the set are placed or skipped"
+    meaning = POINT_INFOS[name].meaning
+    return f"Next: {point_label(name)} – {meaning}" if meaning else f"Next: {point_label(name)}"
+
+
+KEYS = (
+    (("MOUSE_LMB",), "Place"),
+    (("MOUSE_LMB_DRAG",), "Slide"),
+    (("EVENT_CTRL", "MOUSE_LMB"), "Remove"),
+    (("EVENT_TAB",), "Skip"),
+    (("EVENT_SHIFT", "EVENT_TAB"), "Go Back"),
+    (("EVENT_X",), "Mirror"),
+)
+"""Icons of the keys, and what they do."""
+
+
+def _draw_keys(header: Header, context: Context) -> None:
+    """The keys, in the status bar."""
+    if not tool_is_active(context):
+        return
+    row = header.layout.row(align=True)
+    for icons, text in KEYS:
+        for icon in icons[:-1]:
+            row.label(text="", icon=icon)
+        row.label(text=text, icon=icons[-1])
+
+
+def register() -> None:
+    """Put the tool into the toolbar."""
+    bpy.utils.register_tool(FACIAL_RETARGET_TOOL_points, separator=True)
+    bpy.types.STATUSBAR_HT_header.prepend(_draw_keys)
+
+
+def unregister() -> None:
+    """Take it out again."""
+    bpy.types.STATUSBAR_HT_header.remove(_draw_keys)
+    bpy.utils.unregister_tool(FACIAL_RETARGET_TOOL_points)

@@ -1,0 +1,105 @@
+"""The operators of the feature-point tool, as scripts call them."""
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+from stage import actor_face, empty_scene, grid, part, refused
+
+empty_scene()
+operators, places = bpy.ops.facial_retarget, part("bridge.point_places")
+task = bpy.context.scene.facial_retarget
+
+
+def world(thing: bpy.types.Object) -> dict[str, np.ndarray]:
+    return dict(zip(*places.world_places(thing, bpy.context.evaluated_depsgraph_get()), strict=True))
+
+
+# Without a face every operator says so.
+for operator in (operators.place_point, operators.drop_point, operators.skip_point):
+    with refused("no mesh object is active"):
+        operator()
+
+# A point goes where the surface, as it is shown, is closest; a name places another one than that whose turn it is.
+face = grid("face", 21)
+bpy.context.view_layer.objects.active = face
+stored = face.facial_retarget
+face.shape_key_add(name="Basis", from_mix=False)
+raised = face.shape_key_add(name="raised", from_mix=False)
+raised.points.foreach_set("co", (part("bridge.meshes").read_positions(face.data) + np.float32([0, 0, 5])).ravel())
+raised.value = 1.0
+face.matrix_world = Matrix.Translation((5, 6, 7)) @ Matrix.Rotation(1, 4, "X") @ Matrix.Diagonal((-2, 3, 0.5, 1))
+bpy.context.view_layer.update()
+wanted = np.array(face.matrix_world) @ [*face.data.vertices[33].co[:2], face.data.vertices[33].co.z + 5, 1]
+first = stored.turn
+assert operators.place_point(location=wanted[:3].tolist()) == {"FINISHED"}
+np.testing.assert_allclose(world(face)[first], wanted[:3], atol=1e-5)
+assert stored.points[first].vertices[np.argmax(stored.points[first].weights)] == 33
+assert stored.turn != first
+operators.place_point(name="mole", location=(0, 0, 0))
+assert stored.points.keys() == [first, "mole"]
+assert stored.points[stored.active_point].name == "mole"
+operators.place_point(name=first, location=(0, 0, 0))
+np.testing.assert_allclose(world(face)[first], world(face)["mole"])
+
+# Skipping passes the turn on, and going back returns it.
+second = stored.turn
+operators.skip_point()
+assert stored.turn not in (first, second)
+assert stored.skipped.keys() == [second]
+operators.skip_point(back=True)
+assert stored.turn == second
+with refused("no point", "skipped"):
+    operators.skip_point(back=True)
+
+operators.drop_point(name="mole")
+assert stored.points.keys() == [first]
+with refused("'mole'", "no feature point"):
+    operators.drop_point(name="mole")
+
+# With X Mirror a point's partner comes and goes with it; one on the middle line stays alone.
+face.matrix_world = Matrix.Identity(4)
+raised.value = 0.0
+stored.points.clear()
+bpy.context.view_layer.update()
+task.mirror_points = True
+operators.place_point(name="8.3", location=(0.3, -0.2, 2))
+assert set(stored.points.keys()) == {"8.3", "8.4"}
+assert stored.points[stored.active_point].name == "8.3"
+np.testing.assert_allclose(world(face)["8.4"], world(face)["8.3"] * [-1, 1, 1], atol=1e-5)
+operators.place_point(name="8.4", location=(-0.5, 0.1, 2))
+np.testing.assert_allclose(world(face)["8.4"], world(face)["8.3"] * [-1, 1, 1], atol=1e-5)
+operators.place_point(name="9.3", location=(0.1, 0, 2))
+assert set(stored.points.keys()) == {"8.3", "8.4", "9.3"}
+operators.drop_point(name="8.4")
+assert stored.points.keys() == ["9.3"]
+task.mirror_points = False
+
+# Added vertices do not matter, renumbered ones are refused with the reason.
+smooth = face.modifiers.new("smooth", "SUBSURF")
+bpy.context.view_layer.update()
+operators.place_point(name="9.3", location=(0.4, 0.4, 2))
+np.testing.assert_allclose(world(face)["9.3"][:2], [0.4, 0.4], atol=0.2)
+face.modifiers.remove(smooth)
+face.modifiers.new("coarse", "DECIMATE").ratio = 0.5
+bpy.context.view_layer.update()
+with refused("'face'", "modifier"):
+    operators.place_point(name="9.3", location=(0, 0, 2))
+
+# In Edit Mode they cannot run. Every point of the set placed: no turn is left.
+bpy.ops.object.mode_set(mode="EDIT")
+assert not operators.place_point.poll()
+bpy.ops.object.mode_set(mode="OBJECT")
+actor = actor_face()
+actor.facial_retarget.point_set = "MINIMAL"
+assert actor.facial_retarget.turn == ""
+with refused("all points of the set"):
+    operators.place_point(location=(0, 0, 0))
+
+# Esc puts everything back, bit by bit.
+memory = part("bridge.point_memory")
+kept = memory.remember_points(actor)
+operators.place_point(name="9.3", location=(0, 0, 0))
+operators.drop_point(name="2.1")
+assert memory.remember_points(actor) != kept
+memory.put_back_points(actor, kept)
+assert memory.remember_points(actor) == kept
