@@ -79,6 +79,11 @@ class SurfaceFinder:
         self._corners = mesh.vertices[mesh.faces]
         self._whole = _Pieces(self._corners, chosen)
 
+    def normals(self, faces: IntArray) -> FloatArray:
+        """(N, 3) normals of faces (N,) of the mesh."""
+        normals: FloatArray = self._mesh.face_normals[faces]
+        return normals
+
     @cached_property
     def _octants(self) -> dict[int, _Pieces]:
         octant = (self._mesh.face_normals[self._faces] > 0) @ _OCTANT

@@ -42,6 +42,11 @@ class FeaturePoints:
                 raise RetargetError(f"feature point {name!r} appears twice, expected unique names")
             seen.add(name)
 
+    @classmethod
+    def none(cls) -> FeaturePoints:
+        """No points."""
+        return cls((), np.empty((0, 3), np.int64), np.empty((0, 3)))
+
     def __len__(self) -> int:
         return len(self.names)
 

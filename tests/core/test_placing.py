@@ -5,12 +5,14 @@ from functools import cache
 
 import numpy as np
 import pytest
+from scipy.spatial import ConvexHull
 
 from facial_retarget_addon import demo
+from facial_retarget_addon.core.arrays import unit_vectors
 from facial_retarget_addon.core.base.regions import eye_separation
 from facial_retarget_addon.core.errors import RetargetError
 from facial_retarget_addon.core.mesh import TriMesh
-from facial_retarget_addon.core.placing.predictor import Predictor
+from facial_retarget_addon.core.placing.predictor import Predictor, guess_points
 from facial_retarget_addon.core.placing.template import face_template, partner
 from facial_retarget_addon.core.points import FeaturePoints
 from facial_retarget_addon.core.problem import Face
@@ -88,13 +90,138 @@ def test_names_that_are_known_or_strange_are_left_out() -> None:
     assert found.names == ("8.4", "4.1")
 
 
-def test_too_few_points_are_refused() -> None:
-    face = built_in("child")
-    with pytest.raises(RetargetError, match="2 of the 2 placed points"):
-        predictor("child").predict(face.points.subset(FIVE[:2]), ["4.1"])
-
-
 def test_every_point_of_the_average_face_has_its_partner() -> None:
     template = face_template()
     flipped = template.places[template.rows([partner(name) for name in template.names])] * [-1, 1, 1]
     np.testing.assert_allclose(flipped, template.places)
+
+
+def turned(mesh: TriMesh, seed: int) -> TriMesh:
+    """The mesh in other axes, another unit and another place."""
+    axes = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))[0]
+    axes *= np.sign(np.linalg.det(axes))
+    return mesh.with_vertices(40.0 * mesh.vertices @ axes.T + [300.0, -20.0, 7.0])
+
+
+class TestGuess:
+    """Points from nothing but the mesh."""
+
+    @pytest.mark.parametrize("name", ["actor", "skull"])
+    def test_the_face_is_found(self, name: str) -> None:
+        face = built_in(name)
+        found = predictor(name).guess(face.points.names)
+        assert set(found.points.names) == set(face.points.names)
+        assert np.median(errors(face, found.points)) < 0.10
+        assert 0.3 < found.confidence < 1
+
+    def test_axes_and_unit_do_not_matter(self) -> None:
+        face = built_in("actor")
+        found = guess_points(turned(face.mesh, 3), face.points.names)
+        assert np.median(errors(face, found.points)) < 0.10
+
+    def test_one_or_two_points_stand_on_the_guess(self) -> None:
+        face = built_in("actor")
+        found = predictor("actor").predict(face.points.subset(["9.3"]), face.points.names)
+        assert np.median(errors(face, found)) < 0.10
+
+    def test_what_is_no_face_is_refused(self) -> None:
+        rng = np.random.default_rng(1)
+        around = rng.normal(size=(2000, 3))
+        around /= np.linalg.norm(around, axis=1, keepdims=True)
+        ball = TriMesh(around * [1.0, 1.3, 0.9], outwards(around))
+        with pytest.raises(RetargetError, match="no face was found"):
+            guess_points(ball, ["9.3"])
+
+
+def outwards(around: np.ndarray) -> np.ndarray:
+    """Faces (F, 3) of the convex hull of places (N, 3) about the origin, seen from outside."""
+    faces = ConvexHull(around).simplices.astype(np.int64)
+    a, b, c = around[faces].transpose(1, 0, 2)
+    inside = np.einsum("fi,fi->f", np.cross(b - a, c - a), a + b + c) < 0
+    faces[inside] = faces[inside][:, ::-1]
+    return faces
+
+
+class TestMirrored:
+    """Partners across the face."""
+
+    def test_twice_is_the_same_on_a_symmetric_mesh(self) -> None:
+        face = built_in("child")
+        known = face.points.subset(["8.3", "3.7", "cheek_l_1", "2.2", "upper_lid_l_1"])
+        there = predictor("child").mirrored(known, known.names)
+        assert there.names == ("8.4", "3.12", "cheek_r_1", "upper_lid_r_1")
+        back = predictor("child").mirrored(there, there.names)
+        assert errors(face, back).max() < 1e-3
+        assert errors(face, there).max() < 1e-3
+
+    def test_other_topology_and_shape_of_the_halves(self) -> None:
+        face = demo.warped_actor(np.random.default_rng(3), 9_000).face
+        lefts = [name for name in face.points.names if template_x(name) > 0 and partner(name) in face.points.names]
+        alone = Predictor(face.mesh).mirrored(face.points.subset(lefts), lefts)
+        pairs = ("3.7", "3.12", "8.3", "8.4", "9.3", "2.1", "11.1", "4.5", "4.6", "2.13", "2.14")
+        rest = [name for name in lefts if name not in pairs]
+        helped = Predictor(face.mesh).mirrored(face.points.subset([*pairs, *rest]), rest)
+        assert np.median(errors(face, alone)) < 0.12
+        assert np.median(errors(face, helped)) < 0.03
+
+    def test_nothing_to_mirror(self) -> None:
+        face = built_in("child")
+        assert predictor("child").mirrored(face.points.subset(["9.3"]), ["9.3"]).names == ()
+
+
+def template_x(name: str) -> float:
+    template = face_template()
+    return float(template.places[template.rows([name])[0], 0])
+
+
+class TestDoubtful:
+    """Points that the others contradict."""
+
+    @pytest.mark.parametrize("name", FACES)
+    def test_no_false_alarm(self, name: str) -> None:
+        points = built_in(name).points
+        for known in (points.names, (*FIVE, "8.4"), (*FIVE, "8.4", "8.1", "8.2", "4.3", "4.4")):
+            assert predictor(name).doubtful(points.subset(known)) == ()
+
+    @pytest.mark.parametrize("name", FACES)
+    @pytest.mark.parametrize(("one", "other"), [("8.3", "8.4"), ("8.1", "8.2"), ("3.7", "3.11")])
+    def test_swapped_points(self, name: str, one: str, other: str) -> None:
+        points = built_in(name).points.subset((*FIVE, "8.4", "8.1", "8.2", "3.11", "3.8", "4.3", "4.4"))
+        swap = {one: other, other: one}
+        wrong = points.subset([swap.get(point, point) for point in points.names])
+        found = predictor(name).doubtful(FeaturePoints(points.names, wrong.vertices, wrong.weights))
+        assert set(found) == {one, other}
+
+    @pytest.mark.parametrize("name", FACES)
+    def test_a_corner_of_the_mouth_on_the_cheek(self, name: str) -> None:
+        points = built_in(name).points
+        cheek = points.subset(["cheek_l_3"])
+        rest = points.subset([*[point for point in FIVE if point != "8.3"], "8.4", "8.1", "8.2"])
+        found = predictor(name).doubtful(rest.joined(FeaturePoints(("8.3",), cheek.vertices, cheek.weights)))
+        assert found[0] == "8.3"
+
+
+class TestPlaces:
+    """What a predicted point lies on."""
+
+    @pytest.mark.parametrize("name", FACES)
+    def test_lips_on_their_own_side(self, name: str) -> None:
+        face = built_in(name)
+        found = predictor(name).predict(face.points.subset(FIVE), ("2.2", "2.3", "8.1", "8.2"))
+        upper, lower = unit_vectors(found.positions(face.mesh.vertex_normals))[:2, 1]
+        assert upper < lower
+        heights = found.positions(face.mesh.vertices)[:, 1]
+        assert heights[2] > max(heights[:2]) >= min(heights[:2]) > heights[3]
+
+    def test_pupils_on_the_eyeballs(self) -> None:
+        face = built_in("actor")
+        found = predictor("actor").predict(face.points.subset(FIVE), ("3.5", "3.6"))
+        assert found.names == ("3.5", "3.6")
+        components = face.mesh.components
+        assert len(set(components[found.holders]) | {components[face.points.holders[0]]}) == 3
+
+    def test_no_pupils_without_eyeballs(self) -> None:
+        face = built_in("actor")
+        skin = face.mesh.components == face.mesh.components[face.points.holders[0]]
+        mesh = TriMesh(face.mesh.vertices, face.mesh.faces[skin[face.mesh.faces].all(axis=1)])
+        assert Predictor(mesh).predict(face.points.subset(FIVE), ("3.5", "3.6")).names == ()

@@ -12,7 +12,9 @@ from ..rigid import Similarity
 from .template import Template
 
 EXACT = 0.005
-"""How exact a known point is, in eye separations."""
+"""How exact a point is that an artist placed, in eye separations."""
+CLEAR, VAGUE = 0.05, 0.1
+"""How exact landmarks are: margins of lids and lips, and corners of eyes."""
 SLACK = 0.07
 """How exactly the average face, once bent, meets the surface."""
 ROUNDS = 3
@@ -21,6 +23,8 @@ AGREEMENT = 0.4
 """Smallest dot product of two normals that agree."""
 REACH = 0.3
 """How far the surface may be, in eye separations."""
+EASE = 0.01
+"""Differences of so many eye separations are no bending."""
 TRUSTED = 0.1
 """Distance at which a place of the surface counts half."""
 BOLDEST = 3.0
@@ -45,6 +49,13 @@ class FaceFit:
     def places(self) -> FloatArray:
         """(N, 3) on the head."""
         return self.pose.apply(self.template.places + self.differences)
+
+    @property
+    def bending(self) -> float:
+        """Mean square of the differences, in those usual among faces: 0 for the average face, hardly above 0.1."""
+        flat = self.differences.ravel()
+        system = self.template.covariance + EASE**2 * np.eye(len(flat))
+        return float(flat @ np.linalg.solve(system, flat)) / len(self.differences)
 
     @property
     def normals(self) -> FloatArray:
@@ -81,7 +92,7 @@ def fit_face(
     columns = (3 * rows[:, None] + np.arange(3)).ravel()
     among = template.covariance[np.ix_(columns, columns)]
     exact = np.repeat(exactness**2, 3)
-    boldness = _boldness(among + np.diag(exact), known.ravel())
+    boldness = _boldness(among + np.diag(exact), known.ravel()) if len(rows) else 1.0
     differences = _condition(boldness * template.covariance[:, columns], boldness * among, exact, known.ravel())
     fit = FaceFit(template, pose, differences)
     free = np.setdiff1d(np.arange(len(template.names)), rows)

@@ -34,6 +34,8 @@ LIP_ROWS, LIP_HALF = 97, 0.13
 LIP_TURN = 0.25
 """Least turn of the normal, up or down, from one lip to the other, across so many rows: the sine of some 15 degrees."""
 LIP_STEP = 4
+BELIEVED = 0.2
+"""Landmarks farther than this from where the average face expects them are something else."""
 _BEFORE = 1.0
 
 
@@ -97,6 +99,20 @@ def find_landmarks(view: FrontView, fit: FaceFit) -> list[FeaturePoints]:
     groups = [_eye(view, fit, np.array([where[name] for name in names]), names) for names in EYES]
     groups += [_lips(view, fit, 0.5 * (where[upper] + where[lower]), (upper, lower)) for upper, lower in LIPS]
     return [group for group in groups if group is not None]
+
+
+def believed_landmarks(view: FrontView, fit: FaceFit) -> list[FeaturePoints]:
+    """Those of the landmarks that lie about where the average face expects them."""
+    expected = dict(zip(fit.template.names, fit.places, strict=True))
+    groups = find_landmarks(view, fit)
+    return [
+        group
+        for group in groups
+        if all(
+            np.linalg.norm(place - expected[name]) <= BELIEVED * fit.pose.scale
+            for name, place in zip(group.names, group.positions(view.mesh.vertices), strict=True)
+        )
+    ]
 
 
 def _eye(view: FrontView, fit: FaceFit, expected: FloatArray, names: tuple[str, ...]) -> FeaturePoints | None:

@@ -11,7 +11,14 @@ from ..closest_point import Nearest, SurfaceFinder, some_places
 from ..mesh import TriMesh
 from ..raycast import CasterFactory
 from .openings import FrontView
+from .symmetry import SAMPLES, Mirror, mirror_of_surface, surface_samples, symmetry_planes
 
+PLANES = 3
+"""Planes of symmetry that are believed, at most."""
+WORSE = 2.0
+"""A plane whose misfit is this many times the best one's is none."""
+EXACT_SAMPLES = 800
+"""Places of the skin that make its planes exact."""
 AGREEMENTS = (0.4, -0.2)
 """Smallest dot products of the surface's normal and that of the average face there: the first if it can be had."""
 SLIP = 0.08
@@ -32,16 +39,35 @@ class Skin:
     def finder(self) -> SurfaceFinder:
         """Of what can be seen from outside; of everything where nothing can."""
         seen = self._faces[self._outside[self._faces]]
-        return SurfaceFinder(self._mesh, seen) if len(seen) else self._hidden
+        return SurfaceFinder(self._mesh, seen) if len(seen) else self.whole
 
     @cached_property
-    def _hidden(self) -> SurfaceFinder:
+    def whole(self) -> SurfaceFinder:
+        """Of all of the skin, the inside of the mouth with it."""
         return SurfaceFinder(self._mesh, self._faces)
 
     @cached_property
     def view(self) -> FrontView:
         """The skin alone, as it is seen from the front."""
         return FrontView.of(self._mesh, self._faces, self._outside, self._make_caster)
+
+    @cached_property
+    def surface(self) -> TriMesh:
+        """The skin alone, on all vertices of the mesh."""
+        return TriMesh(self._mesh.vertices, self._mesh.faces[self._faces])
+
+    @cached_property
+    def mirrors(self) -> list[Mirror]:
+        """The planes about which the skin is nearly symmetric, best first."""
+        places, normals = surface_samples(self.surface, SAMPLES)
+        planes = symmetry_planes(places, normals, PLANES)
+        return [plane for plane in planes if plane.misfit <= WORSE * planes[0].misfit]
+
+    @cached_property
+    def exact_mirrors(self) -> list[Mirror]:
+        """The same planes, exact where the skin is symmetric."""
+        places, normals = surface_samples(self.surface, EXACT_SAMPLES)
+        return [mirror_of_surface(mirror, self.whole, places, normals) for mirror in self.mirrors]
 
     def closest(self, places: FloatArray, normals: FloatArray, unit: float) -> Nearest:
         """The best place of the skin for each point: near, on the outside, and looking the same way.
@@ -54,13 +80,26 @@ class Skin:
         near = self.finder.closest(places)
         covered = near.distance > COVERED * unit
         if covered.any():
-            near = _with(near, covered, self._hidden.closest(places[covered]))
-        farthest = near.distance + SLIP * unit
-        for agreement in AGREEMENTS[::-1]:
-            better = self.finder.closest(places, normals, agreement, float(farthest.max(initial=0.0)))
-            good = ~covered & (better.distance <= farthest)
-            near = _with(near, good, some_places(better, np.flatnonzero(good)))
-        return near
+            near = _with(near, covered, self.whole.closest(places[covered]))
+        seen = np.flatnonzero(~covered)
+        return _with(near, ~covered, closest_looking(self.finder, places[seen], normals[seen], unit))
+
+
+def closest_looking(finder: SurfaceFinder, places: FloatArray, normals: FloatArray, unit: float) -> Nearest:
+    """The closest places, or ones little farther away that look the way of the normals.
+
+    Parameters
+    ----------
+    places, normals : (N, 3).
+    unit : one eye separation.
+    """
+    near = finder.closest(places)
+    farthest = near.distance + SLIP * unit
+    for agreement in AGREEMENTS[::-1]:
+        better = finder.closest(places, normals, agreement, float(farthest.max(initial=0.0)))
+        good = better.distance <= farthest
+        near = _with(near, good, some_places(better, np.flatnonzero(good)))
+    return near
 
 
 def _with(places: Nearest, rows: BoolArray, better: Nearest) -> Nearest:

@@ -58,13 +58,14 @@ class Template:
         return likeness(self.places, self.places)
 
 
-def likeness(first: FloatArray, second: FloatArray) -> FloatArray:
+def likeness(first: FloatArray, second: FloatArray, alike: float = ALIKE) -> FloatArray:
     """(3N, 3M) covariance of how faces differ from the average at places (N, 3) and (M, 3) of the template.
 
-    Sums of Gaussians; the two halves of a face differ alike, so that a point of one half tells of its partner.
+    Sums of Gaussians; the two halves of a face differ alike, so that a point of one half tells of its partner, unless
+    `alike` is 0.
     """
     same, across = _gaussians(first, second), _gaussians(first, second * _FLIP)
-    both = same[:, None, :, None] * np.eye(3)[:, None, :] + ALIKE * across[:, None, :, None] * np.diag(_FLIP)[:, None]
+    both = same[:, None, :, None] * np.eye(3)[:, None, :] + alike * across[:, None, :, None] * np.diag(_FLIP)[:, None]
     whole: FloatArray = both.reshape(3 * len(first), 3 * len(second))
     return whole
 
