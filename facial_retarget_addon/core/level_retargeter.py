@@ -110,6 +110,18 @@ class LevelRetargeter:
         fine += finest.positions.astype(np.float32)
         return fine, finest.faces
 
+    def level_faces(self, level: int) -> IntArray:
+        """Faces (M, 3) of a level, 1 the coarsest; its vertices are the first ones of the finest mesh.
+
+        Raises
+        ------
+        RetargetError : if there is no such level.
+        """
+        steps = self._pair.steps
+        if not 1 <= level <= len(steps):
+            raise RetargetError(f"level {level} was asked for, and the method has levels 1 to {len(steps)}")
+        return steps[level - 1].faces
+
     def levels(self, source: FloatArray) -> list[LevelMotion]:
         """What the base, each level, the detail and the examples add to the motion of source frames (F, Vs, 3).
 

@@ -3,14 +3,20 @@
 import numpy as np
 import pytest
 
+from facial_retarget_addon import demo
 from facial_retarget_addon.core.errors import RetargetError
+from facial_retarget_addon.core.level_retargeter import LevelRetargeter
 from facial_retarget_addon.core.mesh import TriMesh
+from facial_retarget_addon.core.methods.base import fit
+from facial_retarget_addon.core.methods.settings import HierarchicalSettings
 from facial_retarget_addon.core.normal_maps.chart import disc_chart
+from facial_retarget_addon.core.normal_maps.frame_maps import FrameMaps, MapSize
 from facial_retarget_addon.core.normal_maps.normal_map import fit_normal_map
 from facial_retarget_addon.core.normal_maps.strain import compression, wrinkle_mask
 from facial_retarget_addon.core.normal_maps.surface import TexturedSurface
 from facial_retarget_addon.core.normal_maps.tangents import TangentSpace
 from facial_retarget_addon.core.normal_maps.texels import margin, rasterise, tiles
+from facial_retarget_addon.core.problem import Problem
 
 SQUARE = np.array([[[0, 0], [1, 0], [1, 1]], [[0, 0], [1, 1], [0, 1]]], float)
 
@@ -169,3 +175,39 @@ def test_a_wrinkle_mask_rises_smoothly_from_nothing_to_full() -> None:
     assert mask[151] == 1
     np.testing.assert_allclose(mask[85], 0.5, atol=1e-9)
     assert (np.diff(mask) >= 0).all()
+
+
+@pytest.fixture(scope="module")
+def fitted() -> tuple[LevelRetargeter, np.ndarray, demo.DemoFace]:
+    """The built-in actor onto the child, its performance, and the child."""
+    actor, child = demo.actor(6_000), demo.child()
+    settings = HierarchicalSettings(levels=3)
+    return fit("hierarchical", Problem(actor.face, child.face), settings), demo.performance(actor), child
+
+
+def skin_surface(face: demo.DemoFace) -> TexturedSurface:
+    """A built-in face as an artist's mesh with its texture coordinates."""
+    return TexturedSurface(face.face.mesh, face.counts, face.corners, face.uvs[face.corners])
+
+
+def test_a_performance_becomes_maps_of_the_artists_mesh(fitted: tuple) -> None:
+    retargeter, performance, child = fitted
+    made = FrameMaps(retargeter, performance[0], skin_surface(child), MapSize(128, 4))
+    assert list(made.maps) == [(0, 0)]
+    still = made.frame(performance[0])[0, 0]
+    liveliest = performance[np.abs(performance - performance[0]).max(axis=(1, 2)).argmax()]
+    lively = made.frame(liveliest)[0, 0]
+    np.testing.assert_allclose(np.linalg.norm(lively, axis=2), 1, atol=1e-5)
+    assert np.abs(lively - still).max() > 0.05
+    again = made.frame(performance[0])[0, 0]
+    np.testing.assert_array_equal(still, again)
+
+
+def test_a_level_gets_a_chart_and_its_maps(fitted: tuple) -> None:
+    retargeter, performance, _ = fitted
+    made = FrameMaps(retargeter, performance[0], 1, MapSize(64, 4))
+    assert len(made.surface.mesh.faces) == len(retargeter.level_faces(1))
+    assert made.maps[0, 0].missed < 0.01 * len(made.maps[0, 0].pixel)
+    assert made.frame(performance[0])[0, 0].shape == (64, 64, 3)
+    with pytest.raises(RetargetError, match="level 4 was asked for, and the method has levels 1 to 3"):
+        FrameMaps(retargeter, performance[0], 4, MapSize(64, 4))

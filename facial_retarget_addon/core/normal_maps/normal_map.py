@@ -32,12 +32,16 @@ _THREADS = min(4, os.cpu_count() or 1)
 
 
 class _Block(NamedTuple):
-    """Some texels: the pixels, the matrices to their normals on the fine mesh and to their frames, and their signs."""
+    """Some texels: the pixels, the matrices to their normals on the fine mesh and to their frames, and their signs.
+
+    strength : (T,) of the map, 0 for a flat one; None for 1 everywhere.
+    """
 
     pixel: IntArray
     fine: sp.csr_matrix
     frame: sp.csr_matrix
     sign: FloatArray
+    strength: FloatArray | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,7 +87,8 @@ class NormalMap:
         image[:, 2] = 1.0
 
         def fill(block: _Block) -> None:
-            image[block.pixel] = _in_tangent_space(block.fine @ there, block.frame @ frames, block.sign).T
+            vectors = _in_tangent_space(block.fine @ there, block.frame @ frames, block.sign)
+            image[block.pixel] = (vectors if block.strength is None else _weakened(vectors, block.strength)).T
 
         with ThreadPoolExecutor(_THREADS) as pool:
             list(pool.map(fill, self._blocks))
@@ -116,12 +121,21 @@ def _in_tangent_space(there: FloatArray, frames: FloatArray, sign: FloatArray) -
     return out
 
 
+def _weakened(vectors: FloatArray, strength: FloatArray) -> FloatArray:
+    """Unit vectors (3, T) drawn towards (0, 0, 1) where the strength (T,) is below 1."""
+    drawn = vectors * strength
+    drawn[2] += 1 - strength
+    drawn /= np.sqrt(drawn[0] * drawn[0] + drawn[1] * drawn[1] + drawn[2] * drawn[2])
+    return drawn
+
+
 def fit_normal_map(
     surface: TexturedSurface,
     fine: TriMesh,
     size: int,
     tile: tuple[int, int] = (0, 0),
     margin_width: int = 8,
+    strength: FloatArray | None = None,
     make_caster: CasterFactory = EmbreeCaster,
 ) -> NormalMap:
     """Find the place on the fine mesh of every texel of a light mesh; both in the neutral.
@@ -134,6 +148,7 @@ def fit_normal_map(
     surface : the light mesh. fine : the fine mesh, in the same space.
     size : pixels along each side. tile : whole u and v of the UDIM tile.
     margin_width : pixels around the covered ones that are filled, so that no seam shows when the map is made smaller.
+    strength : (N,) of the map at the fine mesh's vertices, 0 for a flat one; None for 1 everywhere.
 
     Raises
     ------
@@ -160,6 +175,7 @@ def fit_normal_map(
     on_fine = place_matrix(fine.faces[face], weights, len(fine.vertices)).astype(np.float32)
     in_frame = place_matrix(space.group[texels.face], texels.weights, space.count).astype(np.float32)
     sign = space.sign[texels.face]
+    strong = None if strength is None else (on_fine @ strength).astype(np.float32)
     rows = [slice(first, first + _BLOCK) for first in range(0, len(texels.pixel), _BLOCK)]
     around, nearest = margin(texels.pixel, size, margin_width)
     incidence = sp.csr_matrix(
@@ -176,7 +192,12 @@ def fit_normal_map(
         space,
         fine.faces,
         incidence,
-        tuple(_Block(texels.pixel[some], on_fine[some], in_frame[some], sign[some]) for some in rows),
+        tuple(
+            _Block(
+                texels.pixel[some], on_fine[some], in_frame[some], sign[some], None if strong is None else strong[some]
+            )
+            for some in rows
+        ),
     )
 
 

@@ -1,0 +1,101 @@
+"""Normal maps of a performance: the finest level of a fitted pair on the artist's mesh, or on one of the levels."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy.sparse.csgraph import dijkstra
+
+from ..arrays import FloatArray, IntArray, Progress, no_progress
+from ..level_retargeter import LevelRetargeter
+from ..mesh import TriMesh
+from ..raycast import CasterFactory, EmbreeCaster
+from .chart import disc_chart
+from .normal_map import NormalMap, fit_normal_map
+from .surface import TexturedSurface
+from .texels import tiles
+
+_FADE = 0.03
+"""Over which the map of an artist's mesh fades out towards the finest level's outer border, in that level's sizes."""
+
+Tile = tuple[int, int]
+"""Whole u and v of a UDIM tile; (0, 0) is tile 1001."""
+
+
+class MapSize(NamedTuple):
+    """Pixels along each side of a map, and pixels around the covered ones that are filled."""
+
+    pixels: int = 1024
+    margin: int = 8
+
+
+class FrameMaps:
+    """Normal maps of frames.
+
+    Parameters
+    ----------
+    retargeter : the fitted pair.
+    source : (Vs, 3) the source's neutral.
+    light : the light mesh: the target in its neutral, its vertices the first of the retargeter's; or the number of a
+        level, which gets a chart of its own.
+
+    Attributes
+    ----------
+    surface : the light mesh in its neutral.
+    maps : UDIM tile -> the map of its texels.
+
+    Raises
+    ------
+    RetargetError : if there is no such level, or the texture coordinates cover no pixel.
+    """
+
+    def __init__(
+        self,
+        retargeter: LevelRetargeter,
+        source: FloatArray,
+        light: TexturedSurface | int,
+        size: MapSize,
+        make_caster: CasterFactory = EmbreeCaster,
+        progress: Progress = no_progress,
+    ) -> None:
+        self._retargeter = retargeter
+        (positions,), faces = retargeter.detail(np.asarray(source, np.float32)[None])
+        fine = TriMesh(positions, faces)
+        self._own = not isinstance(light, int)
+        self.surface = _level_surface(fine, retargeter.level_faces(light)) if isinstance(light, int) else light
+        strength = _fade(fine) if self._own else None
+        self.maps: dict[Tile, NormalMap] = {}
+        found = tiles(self.surface.triangle_uvs)
+        for number, tile in enumerate(found):
+            progress(number / len(found), "placing the pixels")
+            self.maps[tile] = fit_normal_map(self.surface, fine, size.pixels, tile, size.margin, strength, make_caster)
+
+    def light(self, target: FloatArray, fine: FloatArray) -> FloatArray:
+        """(V, 3) the light mesh of a frame: target (Vt, 3), finest level (N, 3)."""
+        return (target if self._own else fine)[: len(self.surface.mesh.vertices)]
+
+    def frame(self, source: FloatArray) -> dict[Tile, FloatArray]:
+        """Unit normals (size, size, 3) of each tile for a source frame (Vs, 3); see `NormalMap.vectors`."""
+        (fine,), _ = self._retargeter.detail(source[None])
+        (target,) = self._retargeter.frames(source[None])
+        light = self.light(target, fine)
+        return {tile: held.vectors(light, fine) for tile, held in self.maps.items()}
+
+
+def _level_surface(fine: TriMesh, faces: IntArray) -> TexturedSurface:
+    """A level with a chart of its own."""
+    mesh = TriMesh(fine.vertices[: faces.max() + 1], faces)
+    corners = faces.ravel()
+    return TexturedSurface(mesh, np.full(len(faces), 3), corners, disc_chart(mesh)[corners])
+
+
+def _fade(fine: TriMesh) -> FloatArray:
+    """(N,) strength of the map at the finest level's vertices: 0 at its outer border, 1 farther inside."""
+    if not fine.boundary_loops:
+        return np.ones(len(fine.vertices))
+    reach = _FADE * fine.size
+    distance = dijkstra(fine.graph, indices=fine.boundary_loops[0], min_only=True, limit=reach)
+    share = np.minimum(distance / reach, 1.0)
+    strength: FloatArray = share * share * (3 - 2 * share)
+    return strength
