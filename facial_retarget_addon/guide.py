@@ -90,7 +90,7 @@ def _face_advice(context: Context, task: PropertyGroup) -> Advice | None:
             return Advice("FACES", "{face} is not in this scene: choose another face", {"face": thing.name})
     if task.source == task.target:
         return Advice("FACES", "Source and target are one object: choose another target")
-    if not task.source.visible_get():
+    if task.source.hide_get() or task.source.hide_viewport:
         return Advice("FACES", "Unhide {face}: Blender moves nothing hidden", {"face": task.source.name})
     if _surely_still(task.source):
         return Advice("FACES", "{face} does not move: animate it, or choose another source", {"face": task.source.name})

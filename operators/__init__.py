@@ -27,6 +27,7 @@ from . import (
     remove_point,
     retarget,
     sculpt_example,
+    set_up_workspace,
     shape_files,
     show_base,
     show_levels,
@@ -36,6 +37,7 @@ from . import (
 
 CLASSES = (
     choose_face.FACIAL_RETARGET_OT_choose_face,
+    set_up_workspace.FACIAL_RETARGET_OT_set_up_workspace,
     add_faces.FACIAL_RETARGET_OT_add_faces,
     points_files.FACIAL_RETARGET_OT_load_points,
     points_files.FACIAL_RETARGET_OT_save_points,

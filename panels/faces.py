@@ -22,3 +22,5 @@ class FACIAL_RETARGET_PT_faces(Step, Panel):
         if task.source_neutral == "FRAME":
             layout.prop(task, "neutral_frame", text="At")
         layout.prop(task, "target")
+        layout.operator("facial_retarget.set_up_workspace", icon="WORKSPACE")
+        layout.operator("facial_retarget.add_faces", icon="ADD")

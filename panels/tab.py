@@ -1,7 +1,6 @@
 """Where the panels stand, and what the steps of the work have in common."""
 
-from textwrap import wrap
-
+import blf
 from bpy.app.translations import pgettext_iface
 from bpy.types import Context, UILayout
 
@@ -10,8 +9,8 @@ from ..facial_retarget_addon import guide
 ICONS = {"DONE": "CHECKMARK", "NOW": "RADIOBUT_ON", "OPEN": "RADIOBUT_OFF"}
 """How far a step is -> the icon in its header."""
 
-LETTER = 6.0
-"""Pixels that a letter takes on average, at a scale of 1."""
+BESIDE_TEXT = 84
+"""Pixels of the sidebar's width that are no room for a text beside an icon, at a scale of 1."""
 
 
 class RetargetTab:
@@ -40,10 +39,23 @@ class Step(RetargetTab):
 def draw_text(layout: UILayout, context: Context, text: str, icon: str = "NONE") -> None:
     """A text that is translated already, in as many lines as the sidebar's width asks for."""
     scale = context.preferences.system.ui_scale
-    letters = int(context.region.width / scale / LETTER) - 11
+    blf.size(0, scale * context.preferences.ui_styles[0].widget.points)
     column = layout.column(align=True)
-    for row, line in enumerate(wrap(text, max(letters, 16))):
-        column.label(text=line, icon=icon if row == 0 else "BLANK1", translate=False)
+    for line in lines(text, context.region.width - BESIDE_TEXT * scale):
+        column.label(text=line, icon=icon, translate=False)
+        icon = "BLANK1"
+
+
+def lines(text: str, width: float) -> list[str]:
+    """A text in lines of at most `width` pixels of the font that is set, broken between words."""
+    found = [""]
+    for word in text.split(" "):
+        longer = f"{found[-1]} {word}".strip()
+        if found[-1] and blf.dimensions(0, longer)[0] > width:
+            found.append(word)
+        else:
+            found[-1] = longer
+    return found
 
 
 def filled(text: str, **fields: object) -> str:

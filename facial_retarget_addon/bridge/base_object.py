@@ -8,6 +8,7 @@ from bpy.types import Object
 
 from ..core.arrays import IntArray
 from ..core.errors import RetargetError
+from .local_views import show_with
 from .meshes import new_object, read_polygons, replace_geometry
 from .points import point_positions, read_points
 
@@ -31,6 +32,7 @@ def show_base(thing: Object, names: tuple[str, ...], faces: IntArray) -> Object:
     made.matrix_world = thing.matrix_world
     made.display_type = "WIRE"
     made.show_in_front = True
+    show_with(made, thing)
     written = made.data.attributes.get(ATTRIBUTE) or made.data.attributes.new(ATTRIBUTE, "STRING", "POINT")
     for entry, name in zip(written.data, names, strict=True):
         entry.value = name.encode()

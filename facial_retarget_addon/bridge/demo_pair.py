@@ -49,6 +49,9 @@ def add_pair_steps(context: Context, target: str, with_points: bool) -> Steps[tu
     scene.frame_start, scene.frame_end = 1, len(frames)
     scene.frame_set(1)
     scene.facial_retarget.source, scene.facial_retarget.target = source, given
+    for thing in context.view_layer.objects:
+        thing.select_set(thing == source)
+    context.view_layer.objects.active = source
     return source, given
 
 

@@ -9,6 +9,7 @@ from ..core.errors import RetargetError
 from .geometry_watch import changed
 from .heads import head_parts
 from .key_sets import check_editable
+from .performance import is_shown
 from .shape_keys import ensure_key, find_key
 
 
@@ -64,7 +65,7 @@ def stop_sculpting(context: Context) -> None:
 
 def _check(thing: Object, name: str, context: Context) -> None:
     check_editable(thing)
-    if not thing.visible_get(view_layer=context.view_layer):
+    if not is_shown(thing, context.view_layer):
         raise RetargetError(f"object {thing.name!r} is hidden, expected it visible to be sculpted")
     takers = [modifier.name for modifier in thing.modifiers if modifier.type == "MULTIRES" and modifier.total_levels]
     if takers:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 
+import bpy
 import numpy as np
 from bpy.types import Context, Object, Scene, ViewLayer
 
@@ -29,10 +30,16 @@ def scene_rate(scene: Scene) -> float:
     return scene.render.fps / scene.render.fps_base
 
 
+def is_shown(thing: Object, view_layer: ViewLayer) -> bool:
+    """Whether nothing hides an object in the scene. That a 3D view shows others alone is no matter."""
+    with bpy.context.temp_override(area=None):
+        return thing.visible_get(view_layer=view_layer)
+
+
 def check_visible(things: Sequence[Object], view_layer: ViewLayer) -> None:
     """RetargetError if an object is hidden: Blender does not evaluate it then."""
     for thing in things:
-        if not thing.visible_get(view_layer=view_layer):
+        if not is_shown(thing, view_layer):
             raise RetargetError(
                 f"object {thing.name!r} is hidden, expected it visible: Blender evaluates nothing hidden"
             )

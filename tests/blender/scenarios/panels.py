@@ -37,7 +37,9 @@ class InSidebar:
     """Stands for the context of a panel: in background there is neither a region nor a scale."""
 
     region = SimpleNamespace(width=260)
-    preferences = SimpleNamespace(system=SimpleNamespace(ui_scale=1.0))
+    preferences = SimpleNamespace(
+        system=SimpleNamespace(ui_scale=1.0), ui_styles=[SimpleNamespace(widget=SimpleNamespace(points=11))]
+    )
 
     def __getattr__(self, name: str) -> object:
         """Everything else is Blender's."""
