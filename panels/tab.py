@@ -9,7 +9,7 @@ from ..facial_retarget_addon import guide
 ICONS = {"DONE": "CHECKMARK", "NOW": "RADIOBUT_ON", "OPEN": "RADIOBUT_OFF"}
 """How far a step is -> the icon in its header."""
 
-BESIDE_TEXT = 84
+BESIDE_TEXT = 98
 """Pixels of the sidebar's width that are no room for a text beside an icon, at a scale of 1."""
 
 

@@ -54,10 +54,9 @@ task.method = "motion_cloning"
 task.use_scene_range, task.frame_start, task.frame_end = False, 20, 23
 assert bpy.ops.facial_retarget.retarget() == {"FINISHED"}
 assert guide.state(context, "RETARGET") == "DONE"
-context.view_layer.objects.active = source
-source.select_set(True)
+assert (context.view_layer.objects.active, context.selected_objects) == (task.source, [task.source])
 assert bpy.ops.facial_retarget.export_gltf(filepath=str(path)) == {"FINISHED"}
-assert context.selected_objects == [source], "the selection is another one"
+assert context.selected_objects == [task.source], "the selection is another one"
 name, count = task.target.name, len(task.target.data.vertices)
 fresh_scene()
 assert bpy.ops.import_scene.gltf(filepath=str(path)) == {"FINISHED"}
