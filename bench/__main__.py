@@ -15,6 +15,7 @@ SECTIONS = (
     "cloning_grid",
     "cloning_speed",
     "parts",
+    "placing",
     "blender_write",
 )
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
-from ..closest_point import SurfaceFinder
 from ..rigid import Similarity
+from .samples import SurfaceSamples
 from .template import Template
 
 EXACT = 0.005
@@ -69,7 +69,7 @@ def fit_face(
     rows: IntArray,
     places: FloatArray,
     exactness: FloatArray,
-    finder: SurfaceFinder,
+    samples: SurfaceSamples,
 ) -> FaceFit:
     """Lay a template on a head: a Gaussian process whose observations are the known points and the surface.
 
@@ -82,7 +82,7 @@ def fit_face(
     rows : (P,) of the known points in the template.
     places : (P, 3) where they are.
     exactness : (P,) how far they may be off, in eye separations.
-    finder : of the head's skin.
+    samples : of the head's skin.
 
     References
     ----------
@@ -97,7 +97,7 @@ def fit_face(
     fit = FaceFit(template, pose, differences)
     free = np.setdiff1d(np.arange(len(template.names)), rows)
     for _ in range(ROUNDS):
-        fit = FaceFit(template, pose, _towards_surface(fit, free, columns, known, exact, boldness, finder))
+        fit = FaceFit(template, pose, _towards_surface(fit, free, columns, known, exact, boldness, samples))
     return fit
 
 
@@ -121,15 +121,14 @@ def _towards_surface(
     known: FloatArray,
     exact: FloatArray,
     boldness: float,
-    finder: SurfaceFinder,
+    samples: SurfaceSamples,
 ) -> FloatArray:
     """(N, 3) differences that know where the surface lies next to the points that are free."""
     template, pose = fit.template, fit.pose
-    found = finder.closest(fit.places[free], fit.normals[free], AGREEMENT, REACH * pose.scale)
-    met = found.face >= 0
-    rows, outwards = free[met], template.normals[free[met]]
-    seen = pose.inverse.apply(found.point[met]) - template.places[rows]
-    away = np.einsum("pi,pi->p", seen - fit.differences[rows], outwards)
+    found = samples.ahead(fit.places[free], fit.normals[free], AGREEMENT, REACH * pose.scale)
+    rows, outwards = free[found.met], template.normals[free[found.met]]
+    away = found.offset[found.met] / pose.scale
+    seen = np.einsum("pi,pi->p", fit.differences[rows], outwards) + away
     # Columns of the covariance that belong to what is seen: the known coordinates, then along the normals.
     count = len(template.names)
     along = np.einsum("npk,pk->np", template.covariance.reshape(3 * count, count, 3)[:, rows], outwards)
@@ -137,6 +136,4 @@ def _towards_surface(
     of_normals = np.einsum("pkn,pk->pn", cross_covariance.reshape(count, 3, -1)[rows], outwards)
     covariance = np.concatenate([cross_covariance[columns], of_normals])
     slack = np.concatenate([exact, SLACK**2 * (1 + (away / TRUSTED) ** 2)])
-    return _condition(
-        cross_covariance, covariance, slack, np.concatenate([known.ravel(), np.einsum("pi,pi->p", seen, outwards)])
-    )
+    return _condition(cross_covariance, covariance, slack, np.concatenate([known.ravel(), seen]))

@@ -24,7 +24,7 @@ SAME_TURN, SAME_SIZE = np.cos(np.radians(9.0)), 1.1
 """Stands that differ by less are one: the cosine of a turn, and a ratio of sizes."""
 ROUNDS = 4
 """Of laying the average face on the surface without bending it."""
-LOOKS = 2
+LOOKS = 4
 """How often landmarks are looked for; bending to them shows more."""
 NEAR = 0.25
 """Places of the surface count for that if they are nearer than this, in eye separations."""
@@ -101,7 +101,7 @@ def _settled(template: Template, pose: Similarity, skin: Skin) -> FoundFace:
 def _bent(template: Template, pose: Similarity, landmarks: FeaturePoints, skin: Skin) -> FaceFit:
     """The average face bent to the surface and to landmarks on it."""
     rows, places = template.rows(landmarks.names), landmarks.positions(skin.surface.vertices)
-    return fit_face(template, pose, rows, places, np.full(len(rows), CLEAR), skin.finder)
+    return fit_face(template, pose, rows, places, np.full(len(rows), CLEAR), skin.samples)
 
 
 def _all(groups: Sequence[FeaturePoints]) -> FeaturePoints:

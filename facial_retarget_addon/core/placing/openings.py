@@ -34,7 +34,7 @@ LIP_ROWS, LIP_HALF = 97, 0.13
 LIP_TURN = 0.25
 """Least turn of the normal, up or down, from one lip to the other, across so many rows: the sine of some 15 degrees."""
 LIP_STEP = 4
-BELIEVED = 0.2
+BELIEVED = 0.25
 """Landmarks farther than this from where the average face expects them are something else."""
 _BEFORE = 1.0
 

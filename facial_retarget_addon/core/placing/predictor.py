@@ -31,7 +31,7 @@ SIZE = 0.25
 """An eye separation, as a share of the mesh's size, where too few points tell it."""
 LEAST = 3
 """Known points from which others can be predicted without looking for the face."""
-NO_FACE = 0.37
+NO_FACE = 0.38
 """A surface that is this unlike the average face is none."""
 MOST_SKINS, LEAST_SKIN = 3, 0.1
 """Components on which a face is looked for: how many of the largest, and the least share of the mesh's area."""
@@ -188,13 +188,14 @@ class Predictor:
         else:
             skin = self._skin(np.unique(self._mesh.components[told.holders]))
             pose = fit_similarity(template.places[rows], places)
-            rough = fit_face(template, pose, rows, places, np.full(len(rows), EXACT), skin.finder)
+            rough = fit_face(template, pose, rows, places, np.full(len(rows), EXACT), skin.samples)
+        pose = fit_similarity(template.places, rough.places)
         landmarks = self._undisputed(rough, told, believed_landmarks(skin.view, rough))
         rows = np.concatenate([rows, template.rows(landmarks.names)])
         places = np.concatenate([places, landmarks.positions(self._mesh.vertices)])
         slack = [VAGUE if name in CORNERS else CLEAR for name in landmarks.names]
         exactness = np.concatenate([np.full(len(told), EXACT), slack])
-        return fit_face(template, pose, rows, places, exactness, skin.finder), landmarks, skin
+        return fit_face(template, pose, rows, places, exactness, skin.samples), landmarks, skin
 
     def _undisputed(self, fit: FaceFit, told: FeaturePoints, groups: Sequence[FeaturePoints]) -> FeaturePoints:
         """New landmarks of the groups that agree with the points placed."""

@@ -11,12 +11,15 @@ from ..closest_point import Nearest, SurfaceFinder, some_places
 from ..mesh import TriMesh
 from ..raycast import CasterFactory
 from .openings import FrontView
-from .symmetry import SAMPLES, Mirror, mirror_of_surface, surface_samples, symmetry_planes
+from .samples import SurfaceSamples, surface_samples
+from .symmetry import SAMPLES, Mirror, mirror_of_surface, symmetry_planes
 
 PLANES = 3
 """Planes of symmetry that are believed, at most."""
 WORSE = 2.0
 """A plane whose misfit is this many times the best one's is none."""
+SURFACE_SAMPLES = 20_000
+"""Places that stand for the skin while the average face is bent to it."""
 EXACT_SAMPLES = 800
 """Places of the skin that make its planes exact."""
 AGREEMENTS = (0.4, -0.2)
@@ -40,6 +43,13 @@ class Skin:
         """Of what can be seen from outside; of everything where nothing can."""
         seen = self._faces[self._outside[self._faces]]
         return SurfaceFinder(self._mesh, seen) if len(seen) else self.whole
+
+    @cached_property
+    def samples(self) -> SurfaceSamples:
+        """Of what can be seen from outside; of everything where nothing can."""
+        seen = self._faces[self._outside[self._faces]]
+        faces = seen if len(seen) else self._faces
+        return SurfaceSamples(TriMesh(self._mesh.vertices, self._mesh.faces[faces]), SURFACE_SAMPLES)
 
     @cached_property
     def whole(self) -> SurfaceFinder:

@@ -10,7 +10,6 @@ from scipy.spatial import cKDTree
 
 from ..arrays import FloatArray, cross, unit_vectors
 from ..closest_point import SurfaceFinder
-from ..mesh import TriMesh
 
 DIRECTIONS = 160
 """Normals that are tried, spread over a half sphere, beside the axes of the mesh's units and of its mass."""
@@ -53,15 +52,6 @@ class Mirror:
         """Directions (N, 3) mirrored."""
         turned: FloatArray = vectors - 2 * np.outer(vectors @ self.normal, self.normal)
         return turned
-
-
-def surface_samples(mesh: TriMesh, count: int) -> tuple[FloatArray, FloatArray]:
-    """Places (count, 3) spread evenly over a surface by area, and the normals (count, 3) there: the same every time."""
-    ends = np.cumsum(mesh.face_areas)
-    rng = np.random.default_rng(0)
-    face = np.searchsorted(ends, ends[-1] * (np.arange(count) + 0.5) / count)
-    weights = rng.dirichlet([1.0, 1.0, 1.0], count)
-    return np.einsum("nk,nkc->nc", weights, mesh.vertices[mesh.faces[face]]), mesh.face_normals[face]
 
 
 def symmetry_planes(places: FloatArray, normals: FloatArray, most: int) -> list[Mirror]:
