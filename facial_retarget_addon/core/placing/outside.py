@@ -28,9 +28,10 @@ def seen_from_outside(mesh: TriMesh, make_caster: CasterFactory) -> BoolArray:
     solid = _solid(mesh)
     caster = make_caster(TriMesh(mesh.vertices, mesh.faces[solid[mesh.faces[:, 0]]]))
     normal = mesh.face_normals
-    across = unit_vectors(cross(normal, np.where(np.abs(normal[:, :1]) < 0.7, [[1.0, 0, 0]], [[0, 1.0, 0]])))
+    corners = mesh.vertices[mesh.faces]
+    across = unit_vectors(corners[:, 1] - corners[:, 0])
     other = cross(normal, across)
-    start = mesh.vertices[mesh.faces].mean(axis=1) + _LIFT * mesh.size * normal
+    start = corners.mean(axis=1) + _LIFT * mesh.size * normal
     seen = np.zeros(len(normal), bool)
     for direction in _ways(normal, across, other):
         left = np.flatnonzero(~seen)
