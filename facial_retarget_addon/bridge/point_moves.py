@@ -13,6 +13,7 @@ from ..core.errors import RetargetError
 from ..core.point_sets import POINT_INFOS
 from ..core.sliding import Place
 from .meshes import neutral_mesh
+from .point_prediction import update_predictions
 from .points import place_point, remove_point, skip_point
 from .shown_surface import ShownSurface
 
@@ -64,6 +65,7 @@ def put_point_near(
         raise RetargetError(f"all points of the set are placed on object {thing.name!r} or skipped, expected a name")
     place = ShownSurface(thing, depsgraph).closest(np.array(position, np.float64))
     put_point(thing, wanted, place, PointMirror(thing) if mirrored else None)
+    update_predictions(thing)
     return wanted
 
 
@@ -72,6 +74,7 @@ def drop_point(thing: Object, name: str, mirrored: bool) -> None:
     remove_point(thing, name)
     if mirrored and partner(name) in thing.facial_retarget.points:
         remove_point(thing, partner(name))
+    update_predictions(thing)
 
 
 def skip_turn(thing: Object) -> None:
@@ -80,6 +83,7 @@ def skip_turn(thing: Object) -> None:
     if not name:
         raise RetargetError(f"all points of the set are placed on object {thing.name!r} or skipped already")
     skip_point(thing, name)
+    update_predictions(thing)
 
 
 def go_back(thing: Object) -> None:
@@ -88,3 +92,4 @@ def go_back(thing: Object) -> None:
     if not len(skipped):
         raise RetargetError(f"no point of object {thing.name!r} is skipped, expected one to go back to")
     skipped.remove(len(skipped) - 1)
+    update_predictions(thing)

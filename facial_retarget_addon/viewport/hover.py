@@ -9,11 +9,14 @@ import numpy as np
 from bpy.types import Context, Gizmo, GizmoGroup, Object
 
 from ..core.arrays import FloatArray
+from ..core.point_sets import FIRST_FIVE
 from .faces import face_marks, shown_faces
 from .projection import screen_places
 
 REACH = 10.0
 """Pixels, at a UI scale of 1, between the mouse and a point that it is over."""
+CLICK_REACH = 4.0
+"""The same for a click on a proposal: farther away it places the point whose turn it is, where the artist clicks."""
 
 
 class Hovered(NamedTuple):
@@ -32,15 +35,25 @@ def hovered() -> Hovered:
     return _now[0]
 
 
-def point_at(context: Context, mouse: tuple[float, float]) -> Hovered:
-    """The point nearest to a place (2,) of the region, within reach and on the side that we see."""
-    best, found = REACH * context.preferences.system.ui_scale, NOTHING
+def point_at(context: Context, mouse: tuple[float, float], clicked: bool = False) -> Hovered:
+    """The point nearest to a place (2,) of the region, within reach and on the side that we see.
+
+    Parameters
+    ----------
+    clicked : whether the place is clicked: then proposals have a smaller reach, and none while the placed points are
+        too few to rely on.
+    """
+    scale = context.preferences.system.ui_scale
+    best, found = REACH * scale, NOTHING
     for thing in shown_faces(context):
         marks = face_marks(context, thing)
         if len(marks.names):
             at, ahead = screen_places(context, marks.places)
             gaps = np.linalg.norm(at - mouse, axis=1)
             gaps[~(ahead & marks.facing(context))] = np.inf
+            if clicked:
+                reach = CLICK_REACH * scale if marks.placed >= len(FIRST_FIVE) else 0.0
+                gaps[marks.placed :][gaps[marks.placed :] > reach] = np.inf
             row = int(gaps.argmin())
             if gaps[row] < best:
                 best, found = float(gaps[row]), Hovered(thing.session_uid, row)
@@ -48,9 +61,9 @@ def point_at(context: Context, mouse: tuple[float, float]) -> Hovered:
 
 
 def point_under(context: Context, mouse: FloatArray) -> tuple[Object | None, str]:
-    """The face and the name of the point that is shown at a place (2,) of the region; None and "" without one."""
+    """The face and the name of the point that a click on a place (2,) of the region means; None and "" without one."""
     if points_are_shown(context):
-        found = point_at(context, (float(mouse[0]), float(mouse[1])))
+        found = point_at(context, (float(mouse[0]), float(mouse[1])), clicked=True)
         for thing in shown_faces(context):
             if thing.session_uid == found.thing:
                 return thing, face_marks(context, thing).names[found.row]

@@ -9,6 +9,7 @@ from bpy.types import Context, Event
 
 from ..bridge.point_memory import put_back_points, remember_points
 from ..bridge.point_moves import PointMirror, put_point
+from ..bridge.point_prediction import update_predictions
 from ..bridge.shown_surface import ShownSurface, view_of
 from ..core.arrays import FloatArray
 from ..core.errors import RetargetError
@@ -100,7 +101,9 @@ class PointDrag:
         self._put()
 
     def put_down(self) -> tuple[str, FloatArray]:
-        """Leave the point where it is; returns its name and its position (3,) in world space."""
+        """Leave the point and predict the others; returns its name and its position (3,) in world space."""
+        if self.changed:
+            update_predictions(self._thing)
         return self._name, self._place.position
 
     def put_back(self) -> None:
