@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 from .core.methods.settings import FEWEST_POINTS, SETTINGS, least_points
@@ -13,6 +13,9 @@ if TYPE_CHECKING:
 
 STEPS = ("FACES", "POINTS", "EXAMPLES", "RETARGET", "EXPORT", "REPORT")
 """The steps of the work, in their order."""
+
+FIRST_POINTS = 5
+"""Points to place before the others can be trusted to proposals."""
 
 BAKED_KEY = "frame_{:04d}"
 """Name of the shape key that a bake makes for a scene frame."""
@@ -41,7 +44,7 @@ class Advice:
 def advice(context: Context) -> Advice:
     """The one thing to do next for the scene's task."""
     task = context.scene.facial_retarget
-    return _face_advice(context, task) or _point_advice(task) or _work_advice(context, task)
+    return _face_advice(context, task) or _point_advice(context, task) or _work_advice(context, task)
 
 
 def state(context: Context, step: str) -> str:
@@ -49,7 +52,7 @@ def state(context: Context, step: str) -> str:
     task = context.scene.facial_retarget
     done = {
         "FACES": _face_advice(context, task) is None,
-        "POINTS": _both(task) and _point_advice(task) is None,
+        "POINTS": _both(task) and _point_advice(context, task) is None,
         "EXAMPLES": len(task.examples) > 0,
         "RETARGET": _both(task) and is_baked(task.target, first_frame(context)),
     }
@@ -112,20 +115,44 @@ def _surely_still(thing: Object) -> bool:
     )
 
 
-def _point_advice(task: PropertyGroup) -> Advice | None:
+def _point_advice(context: Context, task: PropertyGroup) -> Advice | None:
     wanted = wanted_points(task)
-    names = []
-    for thing in (task.source, task.target):
-        names.append(_point_names(thing))
-        missing = wanted - len(names[-1])
-        if missing > 0:
-            text = "Place {count} more points on {face}" if missing > 1 else "Place one more point on {face}"
-            return Advice("POINTS", text, {"count": missing, "face": thing.name})
-    common = len(names[0] & names[1])
+    for role in ("source", "target"):
+        thing = getattr(task, role)
+        found = _missing_points(context, thing, role, wanted - len(_point_names(thing)))
+        if found is not None:
+            return found
+    common = len(_point_names(task.source) & _point_names(task.target))
     if common < wanted:
         text = "Only {count} points have the same names on both faces: {wanted} must"
         return Advice("POINTS", text, {"count": common, "wanted": wanted})
     return None
+
+
+def _missing_points(context: Context, thing: Object, role: str, missing: int) -> Advice | None:
+    """What to do where a face lacks points: place some, then accept what is proposed."""
+    if missing <= 0:
+        return None
+    face = thing.facial_retarget
+    fields = {"count": missing, "face": thing.name}
+    start = Advice("POINTS", "", fields, "facial_retarget.start_placing", {"role": role.upper()})
+    if len(face.proposals) >= missing:
+        fields["count"] = len(face.proposals)
+        text = "Look at the {count} proposed points on {face}, then accept them"
+        if context.active_object == thing:
+            return Advice("POINTS", text, fields, "facial_retarget.accept_points")
+        return replace(start, text=text)
+    if not face.turn:
+        return Advice("POINTS", "Choose a larger set of points for {face}: {count} are missing", fields)
+    first = FIRST_POINTS - len(face.points)
+    if first > 0:
+        fields["count"] = first
+        text = "Place {count} points on {face}, then the others are proposed"
+        return replace(
+            start, text=text if first > 1 else "Place one more point on {face}, then the others are proposed"
+        )
+    text = "Place {count} more points on {face}" if missing > 1 else "Place one more point on {face}"
+    return replace(start, text=text)
 
 
 def _point_names(thing: Object) -> set[str]:

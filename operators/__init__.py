@@ -32,12 +32,14 @@ from . import (
     show_base,
     show_levels,
     skip_point,
+    start_placing,
     stop,
 )
 
 CLASSES = (
     choose_face.FACIAL_RETARGET_OT_choose_face,
     set_up_workspace.FACIAL_RETARGET_OT_set_up_workspace,
+    start_placing.FACIAL_RETARGET_OT_start_placing,
     add_faces.FACIAL_RETARGET_OT_add_faces,
     points_files.FACIAL_RETARGET_OT_load_points,
     points_files.FACIAL_RETARGET_OT_save_points,

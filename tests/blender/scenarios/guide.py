@@ -52,23 +52,43 @@ assert done() == ["FACES"]
 task.method = "motion_cloning"
 wanted = guide.wanted_points(task)
 assert wanted < 30
-advised(f"Place {wanted} more points on source", "POINTS")
+START = "facial_retarget.start_placing"
+advised("Place 5 points on source, then the others are proposed", "POINTS", START)
 for number in range(wanted):
+    if number == guide.FIRST_POINTS - 1:
+        advised("Place one more point on source, then the others are proposed", "POINTS", START)
+    if number == guide.FIRST_POINTS:
+        advised(f"Place {wanted - 5} more points on source", "POINTS", START)
+        for proposed in range(wanted):
+            source.facial_retarget.proposals.add().name = f"p{5 + proposed}"
+        text = f"Look at the {wanted} proposed points on source, then accept them"
+        advised(text, "POINTS", START)
+        context.view_layer.objects.active = source
+        advised(text, "POINTS", "facial_retarget.accept_points")
+        context.view_layer.objects.active = target
+        source.facial_retarget.proposals.clear()
     source.facial_retarget.points.add().name = f"p{number}"
-advised(f"Place {wanted} more points on target", "POINTS")
+advised("Place 5 points on target, then the others are proposed", "POINTS", START)
 for number in range(wanted - 2):
     target.facial_retarget.points.add().name = f"p{number}"
 eye = grid("eye", 3)
 eye.facial_retarget.points.add().name = "eye"
 target.facial_retarget.parts.add().thing = eye
-advised("Place one more point on target", "POINTS")
+advised("Place one more point on target", "POINTS", START)
+target.facial_retarget.points.add().name = "mine"
+target.facial_retarget.points.remove(len(target.facial_retarget.points) - 1)
+target.facial_retarget.point_set = "MINIMAL"
+skipped = [info.name for info in part("core.point_sets").POINT_SETS["MINIMAL"]]
+for name in skipped:
+    target.facial_retarget.skipped.add().name = name
+advised("Choose a larger set of points for target: 1 are missing", "POINTS")
 target.facial_retarget.points.add().name = "mine"
 advised(f"Only {wanted - 2} points have the same names on both faces: {wanted} must", "POINTS")
 for name in ("eye", "mine"):
     source.facial_retarget.points.add().name = name
 assert done() == ["FACES", "POINTS"]
 task.method = "hierarchical"
-advised(f"Place {30 - wanted - 2} more points on source", "POINTS")
+advised(f"Place {30 - wanted - 2} more points on source", "POINTS", START)
 task.base = eye
 assert done() == ["FACES", "POINTS"], "an own base mesh says itself which points it wants"
 task.base, task.method = None, "motion_cloning"
