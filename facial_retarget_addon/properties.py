@@ -47,24 +47,28 @@ def _meaning(point: PropertyGroup) -> str:
 class FACIAL_RETARGET_PG_feature_point(PropertyGroup):
     """A named place on the object's surface: three vertices and their weights. `name` is inherited."""
 
-    title: StringProperty(get=_title, description="Its name, and what a person calls it")
-    meaning: StringProperty(get=_meaning, description="Where on a face it lies")
+    title: StringProperty(name="Title", get=_title, description="Its name, and what a person calls it")
+    meaning: StringProperty(name="Meaning", get=_meaning, description="Where on a face it lies")
     vertices: IntVectorProperty(name="Vertices", size=3, min=0, description="The vertices that hold the point")
     weights: FloatVectorProperty(
         name="Weights", size=3, default=(1.0, 0.0, 0.0), precision=4, description="How much of each vertex"
     )
-    topology: StringProperty(description="The topology on which these vertices count, empty if it was never noted")
-    anchored: BoolProperty(description="The anchor says where the point is when the topology changes")
-    anchor: FloatVectorProperty(size=3, subtype="XYZ", description="Its place on the mesh at rest")
-    anchor_normal: FloatVectorProperty(size=3, subtype="XYZ", description="The surface's normal there")
+    topology: StringProperty(
+        name="Topology", description="The topology on which these vertices count, empty if it was never noted"
+    )
+    anchored: BoolProperty(name="Anchored", description="The anchor says where the point is when the topology changes")
+    anchor: FloatVectorProperty(name="Anchor", size=3, subtype="XYZ", description="Its place on the mesh at rest")
+    anchor_normal: FloatVectorProperty(
+        name="Anchor Normal", size=3, subtype="XYZ", description="The surface's normal there"
+    )
     doubt: StringProperty(name="Doubt", description="Why the point may be in the wrong place; empty if it is not")
 
 
 class FACIAL_RETARGET_PG_point_name(PropertyGroup):
     """The name of a feature point that has no place. `name` is inherited."""
 
-    title: StringProperty(get=_title, description="Its name, and what a person calls it")
-    meaning: StringProperty(get=_meaning, description="Where on a face it lies")
+    title: StringProperty(name="Title", get=_title, description="Its name, and what a person calls it")
+    meaning: StringProperty(name="Meaning", get=_meaning, description="Where on a face it lies")
 
 
 POINT_SET_ITEMS = [
@@ -84,9 +88,12 @@ PART_ROLES = (
 class FACIAL_RETARGET_PG_part(PropertyGroup):
     """An object that belongs to the head of a face: an eye, teeth, lashes."""
 
-    thing: PointerProperty(name="Object", type=Object, poll=_is_mesh)
+    thing: PointerProperty(
+        name="Object", type=Object, poll=_is_mesh, description="The object that is a part of the head"
+    )
     role: EnumProperty(
         name="Role",
+        description="What the part is, and so how it moves",
         items=[
             ("AUTO", "By Place", "What it is shows by where it lies on the head"),
             *((role, role.title(), f"Moves as {role} do" if role != "still" else "Never moves") for role in PART_ROLES),
@@ -102,11 +109,19 @@ class FACIAL_RETARGET_PG_cloned_key(PropertyGroup):
     """A shape key that was cloned onto an object. `name` is inherited."""
 
     origins: CollectionProperty(type=FACIAL_RETARGET_PG_origin)
-    side: EnumProperty(items=[("WHOLE", "Whole", ""), ("LEFT", "Left half", ""), ("RIGHT", "Right half", "")])
+    side: EnumProperty(
+        name="Side",
+        items=[
+            ("WHOLE", "Whole", "Both sides"),
+            ("LEFT", "Left Half", "The left side alone"),
+            ("RIGHT", "Right Half", "The right side alone"),
+        ],
+        description="Which half of the source's shape key it is",
+    )
     corrected: BoolProperty(
         name="Corrected", description="As you want it: Re-solve leaves it alone, and teaches the other keys by it"
     )
-    shape: StringProperty(description="Fingerprint of the shape that was cloned, by which a change shows")
+    shape: StringProperty(name="Shape", description="Fingerprint of the shape that was cloned, by which a change shows")
     note: StringProperty(name="Figures", description="What the report says of it")
 
 
@@ -135,12 +150,12 @@ class FACIAL_RETARGET_PG_face(PropertyGroup):
     """What an object knows as a face."""
 
     points: CollectionProperty(type=FACIAL_RETARGET_PG_feature_point, description="Feature points that are placed")
-    active_point: IntProperty(name="Active feature point", description="The feature point that is chosen in the list")
+    active_point: IntProperty(name="Active Feature Point", description="The feature point that is chosen in the list")
     proposals: CollectionProperty(
         type=FACIAL_RETARGET_PG_feature_point, description="Feature points that are predicted, and not placed"
     )
-    active_proposal: IntProperty(name="Active proposal", description="The proposal that is chosen in the list")
-    active_skipped: IntProperty(name="Active skipped point", description="The skipped point that is chosen in the list")
+    active_proposal: IntProperty(name="Active Proposal", description="The proposal that is chosen in the list")
+    active_skipped: IntProperty(name="Active Skipped Point", description="The skipped point that is chosen in the list")
     point_list: EnumProperty(name="List", items=POINT_LISTS, description="Which feature points the list shows")
     stale_points: BoolProperty(
         name="Mesh Has Changed",
@@ -158,9 +173,11 @@ class FACIAL_RETARGET_PG_face(PropertyGroup):
         type=FACIAL_RETARGET_PG_point_name, description="Feature points of the set that this face shall not have"
     )
     parts: CollectionProperty(type=FACIAL_RETARGET_PG_part)
-    active_part: IntProperty(name="Active part")
+    active_part: IntProperty(name="Active Part", description="The part of the head that is chosen in the list")
     cloned: CollectionProperty(type=FACIAL_RETARGET_PG_cloned_key)
-    active_cloned: IntProperty(name="Active cloned shape key")
+    active_cloned: IntProperty(
+        name="Active Cloned Shape Key", description="The cloned shape key that is chosen in the list"
+    )
     head: PointerProperty(name="Head", type=Object, description="The empty that shows how the head turns")
 
     @property
@@ -253,7 +270,10 @@ def _tell(what: str) -> Callable[[PropertyGroup, Context], None]:
 
 def _label(name: str) -> str:
     """A name of the core as an artist reads it."""
-    return name.replace("_", " ").capitalize()
+    return name.replace("_", " ").title()
+
+
+METHOD_ITEMS = [(name, _label(name), text) for name, text in METHODS.items()]
 
 
 def _property(setting: Field) -> Any:
@@ -299,14 +319,22 @@ class FACIAL_RETARGET_PG_cloning(PropertyGroup):
 
     donor: EnumProperty(
         name="From",
+        description="Whose shape keys are cloned",
         items=[
             ("SOURCE", "Source", "The shape keys of the source chosen under Faces, and of its parts"),
             ("ACTOR", "Built-In Actor", "The shapes of the built-in actor; no source is needed, and nothing is added"),
         ],
     )
-    actor_sets: EnumProperty(name="Sets", items=ACTOR_SETS, options={"ENUM_FLAG"}, default={"arkit"})
+    actor_sets: EnumProperty(
+        name="Sets",
+        description="Which of the actor's shapes",
+        items=ACTOR_SETS,
+        options={"ENUM_FLAG"},
+        default={"arkit"},
+    )
     targets: EnumProperty(
         name="Onto",
+        description="Which heads get the shape keys",
         items=[
             ("TARGET", "Target", "The target chosen under Faces"),
             ("SELECTED", "Selected Heads", "Every selected object with feature points, but for the source"),
@@ -320,6 +348,7 @@ class FACIAL_RETARGET_PG_cloning(PropertyGroup):
     drop: StringProperty(name="But Not", description="Which of these to leave out, as patterns with commas between")
     sides: EnumProperty(
         name="Sides",
+        description="What becomes of shape keys with and without a side in their name",
         items=[
             ("AS_THEY_ARE", "As They Are", "Shape keys come as the source has them"),
             ("SPLIT", "Split", "Shape keys without a side in their name become a left and a right one"),
@@ -337,11 +366,16 @@ class FACIAL_RETARGET_PG_cloning(PropertyGroup):
         name="ARKit Names",
         description="Shape keys that stand for one of ARKit's get its name: eyeBlink_L, EyeBlinkLeft",
     )
-    existing: EnumProperty(name="Existing Keys", items=EXISTING_KEYS)
+    existing: EnumProperty(
+        name="Existing Keys", items=EXISTING_KEYS, description="What becomes of shape keys that are there already"
+    )
     copy_drivers: BoolProperty(name="Drivers", default=True, description="Copy the drivers of the shape keys")
     copy_animation: BoolProperty(name="Animation", default=True, description="Copy the animation of the shape keys")
     method: EnumProperty(
-        name="Method", items=[(name, _label(name), text) for name, text in METHODS.items()], default="motion_cloning"
+        name="Method",
+        items=METHOD_ITEMS,
+        default="motion_cloning",
+        description="How the motion is carried from face to face",
     )
 
 
@@ -376,17 +410,20 @@ class FACIAL_RETARGET_PG_task(PropertyGroup):
     )
     source_neutral: EnumProperty(
         name="Neutral",
+        description="How the source looks at rest",
         items=[
             ("BASIS", "Basis", "The source's neutral is its Basis, without modifiers"),
             ("FRAME", "Frame", "The source's neutral is how it looks at one frame: for caches and scans"),
         ],
     )
-    neutral_frame: IntProperty(name="Neutral frame", default=1)
-    use_scene_range: BoolProperty(name="Scene's frames", default=True, description="Retarget the scene's frame range")
-    frame_start: IntProperty(name="First frame", default=1)
-    frame_end: IntProperty(name="Last frame", default=250)
+    neutral_frame: IntProperty(
+        name="Neutral Frame", default=1, description="Scene frame at which the source is at rest"
+    )
+    use_scene_range: BoolProperty(name="Scene Range", default=True, description="Retarget the scene's frame range")
+    frame_start: IntProperty(name="First Frame", default=1, description="First scene frame that is retargeted")
+    frame_end: IntProperty(name="Last Frame", default=250, description="Last scene frame that is retargeted")
     base: PointerProperty(
-        name="Base mesh",
+        name="Base Mesh",
         type=Object,
         poll=_is_mesh,
         description="A base mesh of your own: show the base mesh, change its triangles, choose it here",
@@ -395,13 +432,16 @@ class FACIAL_RETARGET_PG_task(PropertyGroup):
         name="X Mirror", description="What you do with a point happens to its partner on the other half of the face too"
     )
     examples: CollectionProperty(type=FACIAL_RETARGET_PG_example)
-    active_example: IntProperty(name="Active example")
+    active_example: IntProperty(name="Active Example", description="The example that is chosen in the list")
     examples_checked: StringProperty(name="Checked", description="Tells the examples that the figures belong to")
     sculpting: PointerProperty(type=FACIAL_RETARGET_PG_sculpting)
     cloning: PointerProperty(type=FACIAL_RETARGET_PG_cloning)
     overlay: PointerProperty(type=FACIAL_RETARGET_PG_overlay)
     method: EnumProperty(
-        name="Method", items=[(name, _label(name), text) for name, text in METHODS.items()], update=_tell("settings")
+        name="Method",
+        items=METHOD_ITEMS,
+        description="How the motion is carried from face to face",
+        update=_tell("settings"),
     )
     report: StringProperty(name="Report", subtype="FILE_PATH", description="Where to write the figures (.json)")
     page: StringProperty(name="Page", subtype="FILE_PATH", description="Where to write the page to look at (.html)")

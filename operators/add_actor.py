@@ -18,7 +18,13 @@ class FACIAL_RETARGET_OT_add_actor(InSteps, Operator):
     bl_options = {"REGISTER", "UNDO"}
     doing = "Making the actor"
 
-    sets: EnumProperty(name="Sets", items=ACTOR_SETS, options={"ENUM_FLAG"}, default={"arkit"})
+    sets: EnumProperty(
+        name="Sets",
+        description="Which of the actor's shapes",
+        items=ACTOR_SETS,
+        options={"ENUM_FLAG"},
+        default={"arkit"},
+    )
 
     @classmethod
     def poll(cls, context: Context) -> bool:

@@ -18,6 +18,7 @@ class FACIAL_RETARGET_OT_add_point(OnFace, Operator):
     name: StringProperty(name="Name", description="Its MPEG-4 number, such as 2.1, or a name of your own")
     place: EnumProperty(
         name="Place",
+        description="Where the point is put",
         items=[
             ("CURSOR", "3D Cursor", "Where the surface is closest to the 3D cursor"),
             ("VERTEX", "Selected Vertex", "On the one vertex that is selected"),

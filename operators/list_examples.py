@@ -13,7 +13,7 @@ class FACIAL_RETARGET_OT_add_example(OnTask, Operator):
     bl_label = "Add Example"
     bl_options = {"REGISTER", "UNDO"}
 
-    name: StringProperty(name="Shape key", description="Its name on source and target")
+    name: StringProperty(name="Shape Key", description="Its name on source and target")
 
     def invoke(self, context: Context, event: Event) -> set[str]:
         """Ask for the name."""

@@ -19,6 +19,7 @@ class FACIAL_RETARGET_OT_make_shapes(OnPoints, InSteps, Operator):
 
     sets: EnumProperty(
         name="Sets",
+        description="Which of the standard's shapes",
         items=[
             ("expressions", "Expressions", "joy, sadness, anger, fear, disgust, surprise: the examples too"),
             ("visemes", "Visemes", "The mouth in speech: MPEG-4's 14"),
@@ -30,6 +31,7 @@ class FACIAL_RETARGET_OT_make_shapes(OnPoints, InSteps, Operator):
     )
     existing: EnumProperty(
         name="Existing Keys",
+        description="What becomes of shape keys that are there already",
         items=[
             ("KEEP", "Keep", "Shape keys of these names that move something stay as they are"),
             ("REPLACE", "Replace", "Shape keys of these names are made anew"),

@@ -26,6 +26,7 @@ class FACIAL_RETARGET_OT_import_motion(OnFace, FromBrowser, ImportHelper, InStep
     filter_glob: StringProperty(default="*.fap;*.csv;*.trc;*.c3d;*.bvh", options={"HIDDEN"})
     way: EnumProperty(
         name="As",
+        description="What the motion becomes on the face",
         items=[
             ("CONTROLS", "Controls or Named Shapes", "FAPs and markers as FAP controls, ARKit as its 52 shape keys"),
             ("POINTS", "Feature Points", "Three shape keys per point: any length of motion, and still editable"),
@@ -35,6 +36,7 @@ class FACIAL_RETARGET_OT_import_motion(OnFace, FromBrowser, ImportHelper, InStep
     frame_start: IntProperty(name="Start Frame", default=1, description="Scene frame of the file's first frame")
     head: EnumProperty(
         name="Head",
+        description="What becomes of the motion of the head as a whole",
         items=[
             ("LEAVE", "Leave", "The head does not turn"),
             ("EMPTY", "Empty", "An empty turns as the head turns: parent the head to it, or let a bone copy it"),
@@ -42,6 +44,7 @@ class FACIAL_RETARGET_OT_import_motion(OnFace, FromBrowser, ImportHelper, InStep
     )
     missing: EnumProperty(
         name="Unused FAPs",
+        description="What becomes of a FAP at frames that do not use it",
         items=[
             ("hold", "Hold", "A FAP that a frame does not use stays as it was"),
             ("zero", "Zero", "A FAP that a frame does not use is 0"),
@@ -49,6 +52,7 @@ class FACIAL_RETARGET_OT_import_motion(OnFace, FromBrowser, ImportHelper, InStep
     )
     gaps: EnumProperty(
         name="Hidden Markers",
+        description="What becomes of markers that the cameras have lost for a while",
         items=[
             ("fill", "Fill", "Short gaps are filled with smooth curves"),
             ("refuse", "Refuse", "Markers with gaps are not imported"),
@@ -106,10 +110,11 @@ class FACIAL_RETARGET_OT_export_motion(OnFace, FromBrowser, ExportHelper, InStep
         ],
         description="In a script the file's suffix decides",
     )
-    frame_start: IntProperty(name="First Frame", default=1)
-    frame_end: IntProperty(name="Last Frame", default=250)
+    frame_start: IntProperty(name="First Frame", default=1, description="First scene frame that is exported")
+    frame_end: IntProperty(name="Last Frame", default=250, description="Last scene frame that is exported")
     source: EnumProperty(
         name="FAPs From",
+        description="Where the values are read from",
         items=[
             ("AUTO", "Controls or Mesh", "The FAP controls if the face has them, its feature points otherwise"),
             ("MESH", "Mesh", "The feature points as the mesh moves, even if there are controls"),

@@ -19,7 +19,9 @@ class FACIAL_RETARGET_OT_load_shapes(OnFace, Operator, ImportHelper):
     bl_options = {"REGISTER", "UNDO"}
 
     filter_glob: StringProperty(default="*.json;*.npz", options={"HIDDEN"})
-    existing: EnumProperty(name="Existing Keys", items=EXISTING_KEYS)
+    existing: EnumProperty(
+        name="Existing Keys", items=EXISTING_KEYS, description="What becomes of shape keys that are there already"
+    )
 
     @tells_user
     def execute(self, context: Context) -> set[str]:
