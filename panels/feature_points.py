@@ -90,7 +90,7 @@ class FACIAL_RETARGET_PT_base(RetargetTab, Panel):
         """Draw the panel."""
         layout = self.layout
         layout.operator("facial_retarget.show_base")
-        layout.prop(context.scene.facial_retarget, "base", text="Own base")
+        layout.prop(context.scene.facial_retarget, "base", text="Own Base")
 
 
 def _draw_list(layout: UILayout, context: Context, face: PropertyGroup) -> None:

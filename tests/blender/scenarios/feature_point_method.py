@@ -32,7 +32,7 @@ task.report, task.page = str(folder / "report.json"), str(folder / "report.html"
 for method, cls in settings.SETTINGS.items():
     task.method = method
     assert part("bridge.settings").read_task_settings(task) == cls(), method
-assert task.bl_rna.properties["method"].enum_items["feature_points"].name == "Feature points"
+assert task.bl_rna.properties["method"].enum_items["feature_points"].name == "Feature Points"
 
 
 def baked(thing: bpy.types.Object) -> np.ndarray:
