@@ -17,6 +17,7 @@ SECTIONS = (
     "parts",
     "placing",
     "blender_write",
+    "preview",
 )
 
 

@@ -14,6 +14,8 @@ from .points import place_matrix
 
 _AGREEMENT = 0.0
 """A vertex is bound to a place whose normal is at most a right angle away from its own."""
+_FEW_COLUMNS, _LONG_ROW = 3, 8
+"""Columns up to which, and entries of the mean row from which, `multiply` goes column by column."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,10 +77,25 @@ def bind(mesh: TriMesh, riders: BoolArray, carrier: TriMesh, reach: float) -> Bi
     return Binding(matrix, corners, offset.astype(np.float32), inside, carrier.vertices.astype(np.float32))
 
 
+def multiply(matrix: sp.csr_matrix, values: FloatArray) -> FloatArray:
+    """Matrix (M, N) times values (N, K).
+
+    SciPy reads a matrix once for all columns, and for so few columns as a frame has, that takes twice as long as each
+    column by itself, unless its rows are short. The sums are the same.
+    """
+    if values.shape[1] > _FEW_COLUMNS or matrix.nnz < _LONG_ROW * matrix.shape[0]:
+        product: FloatArray = matrix @ values
+        return product
+    by_column = np.empty((matrix.shape[0], values.shape[1]), np.result_type(matrix.dtype, values.dtype))
+    for k, column in enumerate(np.ascontiguousarray(values.T)):
+        by_column[:, k] = matrix @ column
+    return by_column
+
+
 def apply_matrix(matrix: sp.csr_matrix, values: FloatArray) -> FloatArray:
     """Matrix (M, N) times every frame of values (F, N, 3): (F, M, 3)."""
     count, size, _ = values.shape
-    product = matrix @ np.ascontiguousarray(values.transpose(1, 0, 2)).reshape(size, 3 * count)
+    product = multiply(matrix, np.ascontiguousarray(values.transpose(1, 0, 2)).reshape(size, 3 * count))
     result: FloatArray = np.ascontiguousarray(product.reshape(-1, count, 3).transpose(1, 0, 2))
     return result
 

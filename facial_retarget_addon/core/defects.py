@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
+import scipy.sparse as sp
 
 from .arrays import BoolArray, FloatArray, IntArray, cross
 from .mesh import TriMesh
@@ -45,6 +48,33 @@ class Defects:
         at_counterpart: BoolArray = turned[self._counterpart]
         return at_counterpart
 
+    def calm_at(self, source: FloatArray, vertices: IntArray) -> BoolArray:
+        """(n,) the same as `calm` for some of the target's vertices (n,)."""
+        there, place = np.unique(self._counterpart[vertices], return_inverse=True)
+        calm = there >= 0
+        held, row = _members(self._edges_at, there[calm])
+        calm[np.flatnonzero(calm)[row[edge_stretch(self._source, source, held) > CALM]]] = False
+        at_vertices: BoolArray = calm[place]
+        return at_vertices
+
+    def turned_at(self, source: FloatArray, vertices: IntArray) -> BoolArray:
+        """(n,) the same as `turned_at_counterpart` for some of the target's vertices (n,)."""
+        there, place = np.unique(self._counterpart[vertices], return_inverse=True)
+        known = np.flatnonzero(there >= 0)
+        held, row = _members(self._faces_at, there[known])
+        turned = np.zeros(len(there), bool)
+        turned[known[row[turned_faces(self._source.faces[held], source, self._source_face_vectors[held])]]] = True
+        at_vertices: BoolArray = turned[place]
+        return at_vertices
+
+    @cached_property
+    def _edges_at(self) -> sp.csr_matrix:
+        return incidence(self._source.edges, len(self._source.vertices))
+
+    @cached_property
+    def _faces_at(self) -> sp.csr_matrix:
+        return incidence(self._source.faces, len(self._source.vertices))
+
     def torn(self, target: FloatArray, calm: BoolArray) -> BoolArray:
         """(E,) torn edges of a frame (Vt, 3)."""
         torn: BoolArray = self.stretched(target) & calm[self._target.edges].all(axis=1)
@@ -73,3 +103,15 @@ def turned_faces(faces: IntArray, positions: FloatArray, neutral: FloatArray) ->
     a, b, c = (positions[faces[:, k]] for k in range(3))
     turned: BoolArray = np.einsum("fi,fi->f", cross(b - a, c - a), neutral) < 0
     return turned
+
+
+def incidence(members: IntArray, count: int) -> sp.csr_matrix:
+    """(count, N) which of N faces or edges (N, k) each vertex belongs to."""
+    rows = np.repeat(np.arange(len(members)), members.shape[1])
+    return sp.csr_matrix((np.ones(members.size, bool), (members.ravel(), rows)), shape=(count, len(members)))
+
+
+def _members(incident: sp.csr_matrix, vertices: IntArray) -> tuple[IntArray, IntArray]:
+    """What each of some vertices (n,) belongs to, one after the other, and the row of each in `vertices`."""
+    held = incident[vertices]
+    return held.indices, np.repeat(np.arange(len(vertices)), np.diff(held.indptr))

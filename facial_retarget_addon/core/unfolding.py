@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from functools import cached_property
-
 import numpy as np
-import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
-from .arrays import BoolArray, FloatArray, IntArray
-from .defects import TORN, Defects
+from .arrays import FloatArray, IntArray
+from .defects import TORN, Defects, incidence
 from .mesh import TriMesh
 
 ROUNDS = 12
@@ -25,23 +22,6 @@ FLAT = 1e-6
 """Faces of less area than this, as a share of the mean one's, have no side to be turned over from."""
 _BLOCK = 16
 """Frames that are looked at together."""
-
-
-class _SourceFrame:
-    """What the source does in a frame (Vs, 3), worked out where it is asked for."""
-
-    def __init__(self, defects: Defects, frame: FloatArray) -> None:
-        self._defects, self._frame = defects, frame
-
-    @cached_property
-    def calm(self) -> BoolArray:
-        """(Vt,) see `Defects.calm`."""
-        return self._defects.calm(self._frame)
-
-    @cached_property
-    def rolled(self) -> BoolArray:
-        """(Vt,) see `Defects.turned_at_counterpart`."""
-        return self._defects.turned_at_counterpart(self._frame)
 
 
 class Unfolding:
@@ -63,8 +43,7 @@ class Unfolding:
         self._sided = target.face_areas > FLAT * target.face_areas.mean()
         self._mean = target.neighbours_mean
         self._rest = target.vertices.astype(np.float32)
-        self._faces_at, self._edges_at = (_incidence(part, len(self._rest)) for part in (target.faces, target.edges))
-        self._faces_of = _incidence(target.face_edges, len(target.edges))
+        self._faces_at, self._edges_at = (incidence(part, len(self._rest)) for part in (target.faces, target.edges))
         self._harmless = self._safe_parting().astype(np.float32) ** 2
 
     def mend(self, displacements: FloatArray, source: FloatArray) -> FloatArray:
@@ -85,44 +64,48 @@ class Unfolding:
         far = np.einsum("efc,efc->fe", parted, parted) > self._harmless
         return [np.flatnonzero(row) for row in far]
 
-    def _mend(self, moved: FloatArray, frame: FloatArray, edges: IntArray) -> None:
-        faces = np.unique(self._faces_of[edges].indices)
+    def _mend(self, moved: FloatArray, source: FloatArray, edges: IntArray) -> None:
+        faces = self._faces_with(edges)
         positions = self._rest + moved
         edges = edges[self._defects.stretched(positions, edges)]
         faces = faces[self._defects.turned(positions, faces) & self._sided[faces]]
         if not len(edges) and not len(faces):
             return
-        acted = _SourceFrame(self._defects, frame)
-        before, now = moved.astype(np.float64), moved.astype(np.float64)
-        bad = first = self._bad(now, acted, faces, edges)
+        now = moved.astype(np.float64)
+        bad = first = self._bad(now, source, faces, edges)
+        touched = np.zeros(len(now), bool)
         for done in range(ROUNDS):
-            if not bad.any():
+            if not len(bad):
                 break
-            patch = bad
+            rows = bad
             for _ in range(min(done // GROWS, MOST_RINGS)):
-                patch = patch | (self._mean @ patch.astype(float) > 0)
-            rows = np.flatnonzero(patch)
+                rows = np.union1d(rows, self._mean[rows].indices)
+            touched[rows] = True
             mean = self._mean[rows]
             for _ in range(SWEEPS):
                 now[rows] = 0.5 * (now[rows] + mean @ now)
-            around = (np.unique(incidence[rows].indices) for incidence in (self._faces_at, self._edges_at))
-            bad = self._bad(now, acted, *around)
-        self._keep_in_vain(before, now, first, bad)
-        moved[:] = now
+            around = (np.unique(incident[rows].indices) for incident in (self._faces_at, self._edges_at))
+            bad = self._bad(now, source, *around)
+        self._keep_in_vain(moved, now, np.flatnonzero(touched), first, bad)
 
-    def _bad(self, displacement: FloatArray, acted: _SourceFrame, faces: IntArray, edges: IntArray) -> BoolArray:
-        """(V,) vertices of those of the faces that are turned, and of those of the edges that are torn."""
+    def _faces_with(self, edges: IntArray) -> IntArray:
+        """(n,) faces that have one of the edges."""
+        own = np.zeros(len(self._target.edges), bool)
+        own[edges] = True
+        a, b, c = self._target.face_edges.T
+        return np.flatnonzero(own[a] | own[b] | own[c])
+
+    def _bad(self, displacement: FloatArray, source: FloatArray, faces: IntArray, edges: IntArray) -> IntArray:
+        """(n,) vertices of those of the faces that are turned, and of those of the edges that are torn."""
         positions = self._target.vertices + displacement
         faces = faces[self._defects.turned(positions, faces) & self._sided[faces]]
         edges = edges[self._defects.stretched(positions, edges)]
+        folded, torn = self._target.faces[faces], self._target.edges[edges]
         if len(faces):
-            faces = faces[~acted.rolled[self._target.faces[faces]].all(axis=1)]
+            folded = folded[~self._defects.turned_at(source, folded.ravel()).reshape(-1, 3).all(axis=1)]
         if len(edges):
-            edges = edges[acted.calm[self._target.edges[edges]].all(axis=1)]
-        bad = np.zeros(len(positions), bool)
-        bad[self._target.faces[faces]] = True
-        bad[self._target.edges[edges]] = True
-        return bad
+            torn = torn[self._defects.calm_at(source, torn.ravel()).reshape(-1, 2).all(axis=1)]
+        return np.union1d(folded, torn)
 
     def _safe_parting(self) -> FloatArray:
         """(E,) by how much the ends of an edge may part without tearing it or turning a face beside it.
@@ -138,24 +121,22 @@ class Unfolding:
         np.minimum.at(parting, mesh.face_edges[sided].ravel(), np.repeat(safe[sided], 3))
         return parting
 
-    def _keep_in_vain(self, before: FloatArray, now: FloatArray, first: BoolArray, left: BoolArray) -> None:
-        """Take back, in place, what was done to patches that it moved too far, or mended nothing of.
+    def _keep_in_vain(
+        self, moved: FloatArray, now: FloatArray, touched: IntArray, first: IntArray, left: IntArray
+    ) -> None:
+        """Take over into displacements (V, 3) what was done to patches, but not where it moved them too far, or mended
+        nothing.
 
-        first, left : (V,) vertices of what was turned or torn before and after.
+        touched : (n,) vertices of the patches.
+        first, left : vertices of what was turned or torn before and after.
         """
-        change = np.sqrt(np.square(now - before).sum(axis=1)) / self._edge
-        touched = np.flatnonzero(change > 0)
+        change = np.sqrt(np.square(now[touched] - moved[touched]).sum(axis=1)) / self._edge[touched]
+        touched, change = touched[change > 0], change[change > 0]
         if not len(touched):
             return
         count, patch = connected_components(self._target.graph[touched][:, touched], directed=False)
         farthest = np.zeros(count)
-        np.maximum.at(farthest, patch, change[touched])
-        faults = [np.bincount(patch, bad[touched], count) for bad in (first, left)]
-        back = touched[((farthest > MOST_CHANGE) | (faults[1] >= faults[0]))[patch]]
-        now[back] = before[back]
-
-
-def _incidence(members: IntArray, count: int) -> sp.csr_matrix:
-    """(count, N) which of N faces or edges (N, k) each vertex belongs to."""
-    rows = np.repeat(np.arange(len(members)), members.shape[1])
-    return sp.csr_matrix((np.ones(members.size, bool), (members.ravel(), rows)), shape=(count, len(members)))
+        np.maximum.at(farthest, patch, change)
+        faults = [np.bincount(patch[np.isin(touched, bad)], minlength=count) for bad in (first, left)]
+        mended = touched[((farthest <= MOST_CHANGE) & (faults[1] < faults[0]))[patch]]
+        moved[mended] = now[mended]

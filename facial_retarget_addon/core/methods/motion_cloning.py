@@ -17,6 +17,7 @@ import scipy.sparse as sp
 
 from ..arrays import BoolArray, FloatArray, IntArray, Progress, no_progress, progress_part, unit_vectors
 from ..base.regions import eye_separation
+from ..binding import multiply
 from ..carry import local_turns, steady_turns
 from ..cloning.cylinder import Cylinder
 from ..cloning.normalisation import vertex_lengths
@@ -102,7 +103,7 @@ class MotionCloningRetargeter:
         every = np.ascontiguousarray(acted.transpose(1, 0, 2))
         if self._smoothing is not None:
             every = _each_column(self._smoothing, every)
-        measured = (every @ self._read) * self._per_length[:, None]
+        measured = (every.reshape(-1, 3) @ self._read).reshape(every.shape) * self._per_length[:, None]
         moved = _each_column(self._matrix, measured) @ self._turns.transpose(0, 2, 1)
         moved = np.ascontiguousarray(moved.transpose(1, 0, 2))
         if self._seams is not None:
@@ -225,7 +226,7 @@ def fit(problem: Problem, settings: MotionCloningSettings, progress: Progress = 
 
 def _each_column(matrix: sp.csr_matrix, values: FloatArray) -> FloatArray:
     """Matrix (M, N) times values (N, F, 3): (M, F, 3)."""
-    product: FloatArray = (matrix @ values.reshape(len(values), -1)).reshape(-1, *values.shape[1:])
+    product: FloatArray = multiply(matrix, values.reshape(len(values), -1)).reshape(-1, *values.shape[1:])
     return product
 
 

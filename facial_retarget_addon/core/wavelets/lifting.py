@@ -10,6 +10,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from ..arrays import FloatArray, IntArray
+from ..binding import multiply
 from ..errors import RetargetError
 from ..levels.subdivision import Level
 from ..levels.vertex_neighbours import adjacency
@@ -51,13 +52,13 @@ class Lift:
     def analyse(self, fine: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Coarse values (V, K) and coefficients (E, K) of fine values (V + E, K)."""
         old, new = fine[: self.predict.shape[1]], fine[self.predict.shape[1] :]
-        coefficients = new - self.predict @ old
-        return old + self.update @ coefficients, coefficients
+        coefficients = new - multiply(self.predict, old)
+        return old + multiply(self.update, coefficients), coefficients
 
     def synthesise(self, coarse: FloatArray, coefficients: FloatArray) -> FloatArray:
         """Fine values (V + E, K) of coarse values (V, K) and coefficients (E, K)."""
-        old = coarse - self.update @ coefficients
-        return np.concatenate([old, coefficients + self.predict @ old])
+        old = coarse - multiply(self.update, coefficients)
+        return np.concatenate([old, coefficients + multiply(self.predict, old)])
 
     @property
     def filters(self) -> Filters:
