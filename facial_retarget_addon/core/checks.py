@@ -14,6 +14,7 @@ from scipy.sparse.csgraph import connected_components
 from .arrays import BoolArray, FloatArray, IntArray
 from .errors import RetargetError
 from .example_states import STILL, same_shapes
+from .gained_face import GainedFace
 from .methods.settings import LEAST_POINTS, LevelSettings, Settings, least_points
 from .mpeg4.regions import OWN_PARTS
 from .parts.kinds import named_faults
@@ -54,6 +55,8 @@ def faults(problem: Problem, frames: FloatArray | None, settings: Settings) -> l
     found += _example_faults(problem)
     if isinstance(settings, LevelSettings):
         found += _level_faults(problem, settings)
+    if not found:
+        found += _gain_faults(problem)
     if frames is not None:
         found += _frame_faults(problem.source, frames)
         if not found and _moves_rigidly(problem.source, frames):
@@ -226,6 +229,14 @@ def _missing_points(problem: Problem, least: int) -> list[str]:
 
 
 # ---- examples -----------------------------------------------------------------------------------
+def _gain_faults(problem: Problem) -> list[str]:
+    try:
+        GainedFace(problem.target, problem.gains)
+    except RetargetError as error:
+        return [f"target: {error}"]
+    return []
+
+
 def _example_faults(problem: Problem) -> list[str]:
     found: list[str] = []
     for (side, face), (other, mate) in zip(_sides(problem), reversed(_sides(problem)), strict=True):

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from .arrays import FloatArray
+from .gains import Gains
 from .mesh import TriMesh
 from .parts.kinds import NamedParts
 from .points import FeaturePoints
@@ -32,10 +33,12 @@ class Problem:
     """A source face, a target face, and the base mesh if the artist made one.
 
     base : triangles over point names, counter-clockwise seen from outside; None to have one made.
+    gains : how strong the motion is at each place of the target.
     make_caster : makes what casts rays on a mesh: Embree, or Blender's BVHTree where no Embree wheel exists.
     """
 
     source: Face
     target: Face
     base: tuple[tuple[str, str, str], ...] | None = None
+    gains: Gains = field(default_factory=Gains)
     make_caster: CasterFactory = EmbreeCaster

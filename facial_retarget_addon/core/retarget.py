@@ -12,6 +12,7 @@ import numpy as np
 from .arrays import FloatArray, Progress, no_progress, progress_part
 from .checks import faults, warnings
 from .errors import RetargetError
+from .gained_face import GainedFace
 from .level_retargeter import LevelMotion, LevelRetargeter, LevelsOf
 from .methods.base import Retargeter, fit
 from .methods.settings import LEVELED, Settings
@@ -62,6 +63,7 @@ def retarget(
     start = perf_counter()
     if wrong := faults(problem, frames, settings):
         raise RetargetError("; ".join(wrong))
+    gained = GainedFace(problem.target, problem.gains)
     noticed = warnings(problem, frames, settings)
     checked = perf_counter()
     retargeter = fit(method, problem, settings, lambda share, what: progress(0.4 * share, what))
@@ -72,7 +74,7 @@ def retarget(
     for first in range(0, len(frames), BLOCK):
         progress(0.4 + 0.6 * first / len(frames), f"frame {first + 1} of {len(frames)}")
         block = np.asarray(frames[first : first + BLOCK], np.float32)
-        result[first : first + BLOCK] = retargeter.frames(block)
+        result[first : first + BLOCK] = gained.scale(retargeter.frames(block))
         measure = perf_counter()
         quality.add(block, result[first : first + BLOCK])
         measuring += perf_counter() - measure
@@ -80,6 +82,7 @@ def retarget(
     report = {
         "method": method,
         "settings": asdict(settings),
+        **problem.gains.report(),
         **retargeter.report,
         "warnings": [*noticed, *retargeter.report["warnings"]],
         "quality": quality.summary(),
@@ -90,7 +93,7 @@ def retarget(
             "quality": measuring,
         },
     }
-    levels = retargeter.levels if isinstance(retargeter, LevelRetargeter) else None
+    levels = _gained_levels(retargeter, gained) if isinstance(retargeter, LevelRetargeter) else None
     return Result(result, report, quality.per_frame(), levels)
 
 
@@ -119,7 +122,17 @@ def level_motions(
         raise RetargetError(f"method {method!r} has no levels, expected one of {', '.join(LEVELED)}")
     retargeter = cast(LevelRetargeter, checked_fit(method, problem, settings, progress_part(progress, 0.0, 0.9)))
     progress(0.9, "taking the frame apart")
-    return retargeter.levels(frame[None])
+    return _gained_levels(retargeter, GainedFace(problem.target, problem.gains))(frame[None])
+
+
+def _gained_levels(retargeter: LevelRetargeter, gained: GainedFace) -> LevelsOf:
+    """The levels of a method, as strong as the gains say."""
+
+    def levels(source: FloatArray) -> list[LevelMotion]:
+        found = retargeter.levels(source)
+        return [level._replace(displacements=gained.scale_displacements(level.displacements)) for level in found]
+
+    return levels
 
 
 def example_figures(

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
 from ..core.errors import RetargetError
-from ..core.methods.settings import Settings
+from ..core.methods.settings import MASK_GAIN, RegionGains, Settings, read_values
 from .documents import Table, fault_sentence, read_toml
 from .job_values import check_method, read_method_settings, read_optional_path, read_path, relative, toml
 from .whole import overwritten, write_whole
@@ -35,6 +35,15 @@ class ExampleFiles:
 
 
 @dataclass(frozen=True)
+class MaskFile:
+    """A painted mask of the target, and how strong the motion is where it is 1."""
+
+    name: str
+    weights: Path
+    gain: float
+
+
+@dataclass(frozen=True)
 class OutputFiles:
     """Where the results go: the target's frames, the figures (JSON), the page to look at (HTML)."""
 
@@ -49,6 +58,7 @@ class Job:
 
     base : a base mesh of the artist's own, or None.
     path : the job file itself.
+    regions, masks : how strong the motion is at each place of the target.
     """
 
     method: str
@@ -59,6 +69,8 @@ class Job:
     output: OutputFiles
     base: Path | None
     path: Path
+    regions: RegionGains = field(default_factory=RegionGains)
+    masks: tuple[MaskFile, ...] = ()
 
     def inputs(self) -> dict[str, Path]:
         """What is read: how the job file names it -> its path."""
@@ -75,6 +87,7 @@ class Job:
         for example in self.examples:
             named[f"example {example.name!r} source"] = example.source
             named[f"example {example.name!r} target"] = example.target
+        named |= {f"mask {mask.name!r}": mask.weights for mask in self.masks}
         return {name: path for name, path in named.items() if path is not None}
 
     def outputs(self) -> dict[str, Path]:
@@ -105,6 +118,8 @@ def read_job(path: Path) -> Job:
         output=_read_output(root.table("output"), path.parent),
         base=read_optional_path(root, "base", path.parent),
         path=path,
+        regions=_read_regions(root),
+        masks=_read_masks(root, path.parent),
     )
     root.no_more()
     if not wrong:
@@ -131,6 +146,29 @@ def _read_examples(root: Table, folder: Path) -> tuple[ExampleFiles, ...]:
         examples.append(ExampleFiles(name, read_path(table, "source", folder), read_path(table, "target", folder)))
         table.no_more()
     return tuple(examples)
+
+
+def _read_regions(root: Table) -> RegionGains:
+    try:
+        return read_values(RegionGains, root.optional("regions", dict) or {}, "[regions]")
+    except RetargetError as error:
+        root.wrong.append(str(error))
+        return RegionGains()
+
+
+def _read_masks(root: Table, folder: Path) -> tuple[MaskFile, ...]:
+    masks: list[MaskFile] = []
+    for number, values in enumerate(root.optional("masks", list) or [], start=1):
+        table = Table(values, f"[[masks]] {number}", root.wrong)
+        mask = MaskFile(table.get("name", str), read_path(table, "weights", folder), table.get("gain", float))
+        if any(mask.name == other.name for other in masks):
+            root.wrong.append(f"{table.where} name {mask.name!r} appears twice, expected unique names")
+        if not MASK_GAIN["low"] <= mask.gain <= MASK_GAIN["high"]:
+            limits = f"a number from {MASK_GAIN['low']} to {MASK_GAIN['high']}"
+            root.wrong.append(f"{table.where} gain = {mask.gain!r}, expected {limits}")
+        masks.append(mask)
+        table.no_more()
+    return tuple(masks)
 
 
 def _read_output(table: Table, folder: Path) -> OutputFiles:
@@ -160,6 +198,12 @@ def write_job(job: Job, path: Path) -> None:
     for example in job.examples:
         lines += ["", "[[examples]]", f"name = {toml(example.name)}"]
         lines += [f"{key} = {toml(relative(getattr(example, key), folder))}" for key in ("source", "target")]
+    gains = {f.name: getattr(job.regions, f.name) for f in fields(RegionGains)}
+    if job.regions != RegionGains():
+        lines += ["", "[regions]", *(f"{name} = {toml(gain)}" for name, gain in gains.items() if gain != 1.0)]
+    for mask in job.masks:
+        weights = toml(relative(mask.weights, folder))
+        lines += ["", "[[masks]]", f"name = {toml(mask.name)}", f"weights = {weights}", f"gain = {toml(mask.gain)}"]
     lines += ["", "[settings]"]
     lines += [f"{field.name} = {toml(getattr(job.settings, field.name))}" for field in fields(job.settings)]
     lines += ["", "[output]"]

@@ -13,6 +13,7 @@ import numpy as np
 from ..core.arrays import FloatArray, Progress, no_progress, progress_part
 from ..core.checks import faults, warnings
 from ..core.errors import RetargetError
+from ..core.gains import Gains, Mask
 from ..core.parts.kinds import NO_NAMES, NamedParts
 from ..core.points import FeaturePoints
 from ..core.problem import Face, Problem
@@ -20,6 +21,7 @@ from ..core.retarget import retarget
 from .base_mesh import read_base_mesh
 from .frames import add_frames, check_frames_place, read_frames
 from .job import FaceFiles, Job, read_job
+from .masks import read_mask
 from .mesh_file import MeshFile
 from .meshes import read_mesh, read_positions
 from .pages.report import report_json, report_page
@@ -155,6 +157,7 @@ class Reading:
             one, other = self.attempt(read_positions, example.source), self.attempt(read_positions, example.target)
             if one is not None and other is not None:
                 examples[example.name] = one, other
+        gains = Gains(job.regions, self.masks(job, target))
         frames = None
         if job.source.frames is None:
             self.wrong.append(f"{job.path} has no [source] frames, expected the frames to retarget")
@@ -169,6 +172,7 @@ class Reading:
                 Face(source.mesh, source_points, {name: pair[0] for name, pair in examples.items()}, source_parts),
                 Face(target.mesh, target_points, {name: pair[1] for name, pair in examples.items()}, target_parts),
                 base,
+                gains=gains,
             ),
             frames,
             source,
@@ -180,6 +184,17 @@ class Reading:
         if files.points is None:
             return FeaturePoints((), np.empty((0, 3), np.int64), np.empty((0, 3)))
         return None if face is None else self.attempt(read_points, files.points, face.mesh)
+
+    def masks(self, job: Job, target: MeshFile | None) -> dict[str, Mask]:
+        """The target's painted masks, without those that cannot be read."""
+        masks: dict[str, Mask] = {}
+        if target is None:
+            return masks
+        for file in job.masks:
+            weights = self.attempt(read_mask, file.weights, len(target.mesh.vertices))
+            if weights is not None:
+                masks[file.name] = Mask(weights, file.gain)
+        return masks
 
     def parts(self, files: FaceFiles, face: MeshFile | None) -> NamedParts | None:
         """The parts of a face that are named, none where the job names no file; None if they cannot be read."""

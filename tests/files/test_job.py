@@ -12,8 +12,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from facial_retarget_addon.core.errors import RetargetError
-from facial_retarget_addon.core.methods.settings import SETTINGS, HierarchicalSettings
-from facial_retarget_addon.files.job import ExampleFiles, FaceFiles, Job, OutputFiles, read_job, write_job
+from facial_retarget_addon.core.methods.settings import SETTINGS, HierarchicalSettings, RegionGains
+from facial_retarget_addon.files.job import ExampleFiles, FaceFiles, Job, MaskFile, OutputFiles, read_job, write_job
 
 MINIMAL = """
 version = 1
@@ -85,6 +85,10 @@ def jobs(draw: st.DrawFn, folder: Path) -> Job:
         ),
         base=draw(st.none() | st.just(path())),
         path=folder / "job.toml",
+        regions=RegionGains(mouth=draw(st.floats(0, 4)), jaw=draw(st.just(1.0) | st.floats(0, 4))),
+        masks=tuple(
+            MaskFile(name, path(), draw(st.floats(0, 4))) for name in draw(st.lists(names, unique=True, max_size=2))
+        ),
     )
 
 
@@ -155,6 +159,22 @@ def test_a_setting_that_is_wrong(tmp_path, line, expected):
     assert expected in str(error.value)
 
 
+@pytest.mark.parametrize(
+    ("lines", "expected"),
+    [
+        ("[regions]\nbeak = 1.0", "[regions] has no setting 'beak'; there are brows, eyes, nose, cheeks, mouth, jaw"),
+        ("[regions]\nmouth = 5", "[regions] mouth = 5: expected a number from 0.0 to 4.0"),
+        ('[[masks]]\nname = "scar"\nweights = "a.npz"\ngain = -1', "[[masks]] 1 gain = -1.0, expected a number from"),
+        ('[[masks]]\nname = "scar"\ngain = 1', "[[masks]] 1 weights is missing"),
+        ('[[masks]]\nname = "scar"\nweights = "out.npz"\ngain = 1', "[output] frames and mask 'scar' are one file"),
+    ],
+)
+def test_a_gain_that_is_wrong(tmp_path, lines, expected):
+    with pytest.raises(RetargetError) as error:
+        read_job(written(tmp_path, MINIMAL.replace("[output]", f"{lines}\n[output]")))
+    assert expected in str(error.value)
+
+
 def test_outputs_may_not_replace_inputs_or_each_other(tmp_path):
     text = MINIMAL.replace('frames = "out.npz"', 'frames = "x/../source.obj"\nreport = "r"\npage = "r"')
     with pytest.raises(RetargetError) as error:
@@ -177,6 +197,14 @@ def test_the_example_in_the_documentation_is_a_job(tmp_path):
     job = read_job(written(tmp_path, text.split("```toml\n")[1].split("```")[0]))
     assert job.examples[0].name == "joy"
     assert job.base == tmp_path / "base.json"
+    assert job.regions == RegionGains(mouth=0.8, jaw=1.2)
+    assert job.masks == (MaskFile("scar", tmp_path / "scar.npz", 0.3),)
+
+
+def test_the_documentation_has_every_region_and_its_help():
+    text = DOCUMENT.read_text(encoding="utf-8").split("## Regions and masks")[1]
+    for field in fields(RegionGains):
+        assert f"| `{field.name}` | {field.metadata['help']} |" in text, "docs/job_file.md is behind the regions"
 
 
 @pytest.mark.parametrize("method", ["hierarchical", "wavelet"])

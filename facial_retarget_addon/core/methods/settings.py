@@ -7,9 +7,11 @@ One frozen dataclass per method. Every field has `help`; numbers have `low` and 
 from __future__ import annotations
 
 from dataclasses import dataclass, field, fields
-from typing import Any
+from typing import Any, TypeVar
 
 from ..errors import RetargetError
+
+T = TypeVar("T", bound="Settings | RegionGains")
 
 
 def _setting(default: Any, help: str, **limits: Any) -> Any:
@@ -147,6 +149,22 @@ def least_points(settings: type[Settings]) -> int:
     return LEAST_POINTS if issubclass(settings, LevelSettings) else FEWEST_POINTS
 
 
+@dataclass(frozen=True)
+class RegionGains:
+    """How strong the motion is in each region of the target."""
+
+    brows: float = _setting(1.0, "Strength of the motion of brows and forehead", low=0.0, high=4.0)
+    eyes: float = _setting(1.0, "Strength of the motion of the lids; eyeballs look where they look", low=0.0, high=4.0)
+    nose: float = _setting(1.0, "Strength of the motion of the nose", low=0.0, high=4.0)
+    cheeks: float = _setting(1.0, "Strength of the motion of the cheeks", low=0.0, high=4.0)
+    mouth: float = _setting(1.0, "Strength of the motion of the lips and around them", low=0.0, high=4.0)
+    jaw: float = _setting(1.0, "Strength of the motion of chin, jaw, lower teeth and tongue", low=0.0, high=4.0)
+
+
+MASK_GAIN = fields(RegionGains)[0].metadata
+"""Limits of the gain of a painted mask: those of the regions."""
+
+
 def read_settings(method: str, values: dict[str, Any], where: str = "[settings]") -> Settings:
     """Settings of a method from plain values, every one checked.
 
@@ -154,7 +172,11 @@ def read_settings(method: str, values: dict[str, Any], where: str = "[settings]"
     ------
     RetargetError : for an unknown name, a wrong type, or a value out of range; it names them all.
     """
-    cls = SETTINGS[method]
+    return read_values(SETTINGS[method], values, where)
+
+
+def read_values(cls: type[T], values: dict[str, Any], where: str) -> T:
+    """One of the dataclasses of this module from plain values; as `read_settings`."""
     known = {f.name: f for f in fields(cls)}
     wrong: list[str] = []
     clean: dict[str, Any] = {}
