@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+
+from .core.methods.settings import SETTINGS, STRENGTHS
 
 
 @dataclass
@@ -17,7 +19,7 @@ class PreviewState:
     stale : what has changed since the fit, "" for nothing.
     trouble : why the last frame could not be shown, "" where it was.
     milliseconds : that the last update took, from reading the source to writing the target.
-    listener : called with what was changed, "faces" or "settings", while the preview is on.
+    listener : called with what was changed, "faces", "settings", "gains" or "masks", while the preview is on.
     forget : ends the preview and drops what was fitted; None where nothing was.
     """
 
@@ -37,3 +39,8 @@ class PreviewState:
 
 STATE = PreviewState()
 """That of this Blender."""
+
+
+def strengths(method: str) -> list[str]:
+    """Names of the settings of a method that act at once."""
+    return [setting.name for setting in fields(SETTINGS[method]) if setting.name in STRENGTHS]

@@ -22,7 +22,7 @@ from bpy.props import (
 from bpy.types import Context, Object, PropertyGroup, Scene, WindowManager
 
 from .core.methods import METHODS
-from .core.methods.settings import SETTINGS
+from .core.methods.settings import MASK_GAIN, SETTINGS, RegionGains
 from .core.point_sets import POINT_SETS, next_point, point_label, point_meaning
 from .preview_state import STATE
 
@@ -276,10 +276,10 @@ def _label(name: str) -> str:
 METHOD_ITEMS = [(name, _label(name), text) for name, text in METHODS.items()]
 
 
-def _property(setting: Field) -> Any:
-    """The Blender property of one setting of a method."""
+def _property(setting: Field, tells: str) -> Any:
+    """The Blender property of one setting; `tells` : what the live preview is told when it is changed."""
     limits = setting.metadata
-    text = {"name": _label(setting.name), "description": limits["help"], "update": _tell("settings")}
+    text = {"name": _label(setting.name), "description": limits["help"], "update": _tell(tells)}
     if isinstance(setting.default, str):
         items = [(choice, choice.capitalize(), limits["help"]) for choice in limits["choices"]]
         return EnumProperty(items=items, default=setting.default, **text)
@@ -290,12 +290,11 @@ def _property(setting: Field) -> Any:
     return kind(default=setting.default, **text)
 
 
-def _settings_group(method: str) -> type[PropertyGroup]:
-    """The property group of a method's settings."""
-    annotations = {setting.name: _property(setting) for setting in fields(SETTINGS[method])}
-    name = f"FACIAL_RETARGET_PG_{method}"
-    body = {"__doc__": SETTINGS[method].__doc__, "__module__": __name__, "__annotations__": annotations}
-    return type(name, (PropertyGroup,), body)
+def _settings_group(name: str, cls: type, tells: str) -> type[PropertyGroup]:
+    """The property group of a dataclass of settings."""
+    annotations = {setting.name: _property(setting, tells) for setting in fields(cls)}
+    body = {"__doc__": cls.__doc__, "__module__": __name__, "__annotations__": annotations}
+    return type(f"FACIAL_RETARGET_PG_{name}", (PropertyGroup,), body)
 
 
 ACTOR_SETS = [
@@ -310,8 +309,24 @@ EXISTING_KEYS = [
     ("SUFFIX", "Number", "New shape keys whose name is taken get a number behind it"),
 ]
 
-SETTINGS_GROUPS = {method: _settings_group(method) for method in SETTINGS}
+SETTINGS_GROUPS = {method: _settings_group(method, cls, "settings") for method, cls in SETTINGS.items()}
 """Method name -> the property group of its settings; on the scene's group it has the method's name."""
+
+FACIAL_RETARGET_PG_regions = _settings_group("regions", RegionGains, "gains")
+
+
+class FACIAL_RETARGET_PG_mask(PropertyGroup):
+    """A vertex group of the target, painted to make the motion weaker or stronger."""
+
+    name: StringProperty(name="Vertex Group", update=_tell("masks"), description="A vertex group of the target")
+    gain: FloatProperty(
+        name="Gain",
+        default=1.0,
+        min=MASK_GAIN["low"],
+        max=MASK_GAIN["high"],
+        update=_tell("gains"),
+        description="Strength of the motion where the weight is 1; where it is 0, nothing changes",
+    )
 
 
 class FACIAL_RETARGET_PG_cloning(PropertyGroup):
@@ -443,6 +458,9 @@ class FACIAL_RETARGET_PG_task(PropertyGroup):
         description="How the motion is carried from face to face",
         update=_tell("settings"),
     )
+    regions: PointerProperty(type=FACIAL_RETARGET_PG_regions)
+    masks: CollectionProperty(type=FACIAL_RETARGET_PG_mask, description="Painted masks of the target")
+    active_mask: IntProperty(name="Active mask", description="The mask that is chosen in the list")
     report: StringProperty(name="Report", subtype="FILE_PATH", description="Where to write the figures (.json)")
     page: StringProperty(name="Page", subtype="FILE_PATH", description="Where to write the page to look at (.html)")
     output: StringProperty(
@@ -473,6 +491,8 @@ CLASSES = (
     FACIAL_RETARGET_PG_example,
     FACIAL_RETARGET_PG_sculpting,
     *SETTINGS_GROUPS.values(),
+    FACIAL_RETARGET_PG_regions,
+    FACIAL_RETARGET_PG_mask,
     FACIAL_RETARGET_PG_cloning,
     FACIAL_RETARGET_PG_overlay,
     FACIAL_RETARGET_PG_task,

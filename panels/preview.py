@@ -1,8 +1,8 @@
 """The live preview."""
 
-from bpy.types import Context, Panel
+from bpy.types import Context, Panel, PropertyGroup, UILayout, UIList
 
-from ..facial_retarget_addon.preview_state import STATE
+from ..facial_retarget_addon.preview_state import STATE, strengths
 from .tab import RetargetTab, draw_text, filled
 
 
@@ -25,3 +25,43 @@ class FACIAL_RETARGET_PT_preview(RetargetTab, Panel):
             if text:
                 draw_text(layout, context, text, icon="ERROR")
         layout.label(text=filled("{milliseconds:.1f} ms a frame", milliseconds=STATE.milliseconds), icon="TIME")
+
+
+class FACIAL_RETARGET_UL_masks(UIList):
+    """Painted masks, each with its gain."""
+
+    def draw_item(
+        self, context: Context, layout: UILayout, data: PropertyGroup, item: PropertyGroup, icon: int, active: object
+    ) -> None:
+        """Draw a row."""
+        row = layout.row(align=True)
+        row.prop(item, "name", text="", icon="GROUP_VERTEX", emboss=False, translate=False)
+        row.prop(item, "gain", text="")
+
+
+class FACIAL_RETARGET_PT_gains(RetargetTab, Panel):
+    """How strong the motion is: by level, by region, and by painted masks."""
+
+    bl_label = "Gains"
+    bl_parent_id = "FACIAL_RETARGET_PT_retarget"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: Context) -> None:
+        """Draw the panel."""
+        layout = self.layout
+        layout.use_property_split, layout.use_property_decorate = True, False
+        task = context.scene.facial_retarget
+        column = layout.column(align=True)
+        for name in strengths(task.method):
+            column.prop(getattr(task, task.method), name)
+        column = layout.column(align=True, heading="Regions")
+        for name in task.regions.__annotations__:
+            column.prop(task.regions, name, slider=True)
+        layout.label(text="Painted Masks")
+        row = layout.row()
+        row.template_list("FACIAL_RETARGET_UL_masks", "", task, "masks", task, "active_mask", rows=2)
+        column = row.column(align=True)
+        column.operator("facial_retarget.add_mask", text="", icon="ADD")
+        column.operator("facial_retarget.remove_mask", text="", icon="REMOVE")
+        if task.target is not None and len(task.masks):
+            layout.prop_search(task.masks[task.active_mask], "name", task.target, "vertex_groups")

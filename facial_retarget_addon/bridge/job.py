@@ -10,10 +10,12 @@ import bpy
 from bpy.types import Context, Object
 
 from ..core.errors import RetargetError
+from ..core.gains import Mask
 from ..core.problem import Face, Problem
 from ..files.base_mesh import write_base_mesh
 from ..files.frames import write_frames as write_frames_file
-from ..files.job import ExampleFiles, Job, OutputFiles, read_job, write_job
+from ..files.job import ExampleFiles, Job, MaskFile, OutputFiles, read_job, write_job
+from ..files.masks import write_mask
 from ..files.mesh_file import MeshFile
 from ..files.meshes import write_mesh
 from ..files.run import read_inputs
@@ -23,6 +25,7 @@ from .bake import write_frames
 from .base_object import show_triangles
 from .beside import Beside
 from .examples import write_example
+from .gains import write_gains
 from .heads import write_named_parts
 from .meshes import new_face
 from .performance import read_frames
@@ -57,12 +60,18 @@ def save_job_steps(context: Context, path: Path) -> Steps[None]:
             ),
             base,
             path,
+            problem.gains.regions,
+            tuple(files.mask(name, number, mask) for number, (name, mask) in enumerate(problem.gains.masks.items(), 1)),
         )
         write_job(job, aside.place(path))
 
 
 class _ExampleFiles(Beside):
-    """The files of a task's heads and examples."""
+    """The files of a task's heads, examples and masks."""
+
+    def mask(self, name: str, number: int, mask: Mask) -> MaskFile:
+        """Write the weights of a mask."""
+        return MaskFile(name, self.add(f"mask_{number}.npz", write_mask, mask.weights), mask.gain)
 
     def example(self, problem: Problem, name: str) -> ExampleFiles:
         """Write an example of both faces."""
@@ -111,6 +120,7 @@ def load_job(context: Context, path: Path, up: str) -> None:
     for example in job.examples:
         task.examples.add().name = example.name
     write_task_settings(task, job.method, job.settings)
+    write_gains(task, task.target, problem.gains)
     task.output, task.report, task.page = (
         "" if file is None else str(file) for file in (job.output.frames, job.output.report, job.output.page)
     )

@@ -18,11 +18,13 @@ from bpy.types import Context, Depsgraph, Object, PropertyGroup, Scene
 
 from ..core.arrays import FloatArray, IntArray, Progress
 from ..core.errors import RetargetError
+from ..core.gained_face import GainedFace
 from ..core.methods.base import Retargeter
-from ..core.methods.settings import Settings
+from ..core.methods.settings import Settings, without_strengths
 from ..core.retarget import checked_fit
 from ..preview_state import STATE
-from .background import Steps, in_thread, part
+from .background import Steps, in_thread
+from .gains import read_gains
 from .heads import head_now, head_parts, read_head
 from .key_sets import check_targets
 from .meshes import from_face_space, read_positions
@@ -41,6 +43,8 @@ from .task import read_problem
 
 CHECK = 0.5
 """Seconds between two looks at what the fit came from."""
+PAUSE = 0.02
+"""Seconds after a change of the method's strengths before they act, so that a drag does not queue up."""
 
 
 @dataclass(eq=False)
@@ -54,7 +58,9 @@ class Preview:
     starts : (n + 1,) the first vertex of each of the target's objects, and how many there are.
     to_own : (n, 3, 3) displacements in the head's coordinates to each object's own.
     rest : (Vt, 3) float32 the target's neutral, in the head's coordinates.
+    gained : the gains of regions and masks. masks : weights (Vt,) of the masks as they were read.
     shown : (Vs, 3) the source as it was shown last; None where it must be shown again.
+    moved : (1, Vt, 3) what the method made of it, without the gains.
     """
 
     scene: int
@@ -65,24 +71,53 @@ class Preview:
     starts: IntArray
     to_own: FloatArray
     rest: FloatArray
+    gained: GainedFace
+    masks: dict[str, FloatArray]
     shown: FloatArray | None = None
+    moved: FloatArray | None = None
 
     def update(self, scene: Scene, depsgraph: Depsgraph) -> None:
         """Show what the source does now."""
         start = perf_counter()
-        task = scene.facial_retarget
-        things = _head(task.target)
         STATE.trouble = ""
         try:
-            frame = _source_now(task, depsgraph)
+            frame = _source_now(scene.facial_retarget, depsgraph)
             if self.shown is not None and np.array_equal(frame, self.shown):
                 return
-            self._write(things, self.retargeter.frames(frame[None])[0], depsgraph)
+            self.moved = self.retargeter.frames(frame[None])
+            self.write(scene, depsgraph)
         except RetargetError as error:
             STATE.trouble = str(error)
             return
         self.shown = frame
         STATE.milliseconds = 1e3 * (perf_counter() - start)
+
+    def adjust(self, scene: Scene) -> None:
+        """Take over strengths of the method that have changed; the source is to be shown again."""
+        settings = read_task_settings(scene.facial_retarget)
+        if settings != self.settings and without_strengths(settings) == without_strengths(self.settings):
+            self.retargeter, self.settings, self.shown = self.retargeter.adjusted(settings), settings, None
+
+    def set_gains(self, scene: Scene) -> None:
+        """Take over gains of regions and masks that have changed.
+
+        Raises
+        ------
+        RetargetError : as `read_gains` and `GainedFace`.
+        """
+        task = scene.facial_retarget
+        gains = read_gains(task, read_head(task.target) if self._new_masks(task) else None, self.masks)
+        self.gained.set(gains)
+        self.masks = {name: mask.weights for name, mask in gains.masks.items()}
+
+    def _new_masks(self, task: PropertyGroup) -> bool:
+        return any(mask.name not in self.masks for mask in task.masks)
+
+    def write(self, scene: Scene, depsgraph: Depsgraph) -> None:
+        """Show what the method has made, as strong as the gains say."""
+        if self.moved is not None:
+            things = _head(scene.facial_retarget.target)
+            self._write(things, self.gained.scale(self.moved.copy())[0], depsgraph)
 
     def _write(self, things: Sequence[Object], positions: FloatArray, depsgraph: Depsgraph) -> None:
         """Show positions (Vt, 3) of the target's head."""
@@ -139,10 +174,11 @@ def fit_steps(context: Context) -> Steps[Preview]:
     check_visible(_head(task.source), context.view_layer)
     origin = _origin(task)
 
-    def compute(progress: Progress) -> Retargeter:
-        return checked_fit(method, problem, settings, progress)
+    def compute(progress: Progress) -> tuple[Retargeter, GainedFace]:
+        gained = GainedFace(problem.target, problem.gains)
+        return checked_fit(method, problem, settings, progress), gained
 
-    retargeter = yield from part(in_thread(compute), 0.0, 1.0)
+    retargeter, gained = yield from in_thread(compute)
     return Preview(
         scene.session_uid,
         origin,
@@ -152,6 +188,8 @@ def fit_steps(context: Context) -> Steps[Preview]:
         head.starts,
         np.linalg.inv(head.linear),
         head.face.mesh.vertices.astype(np.float32),
+        gained,
+        {name: mask.weights for name, mask in problem.gains.masks.items()},
     )
 
 
@@ -187,10 +225,9 @@ def check_origin() -> None:
 def _origin(task: PropertyGroup) -> dict[str, int]:
     """A sum of each thing that a fit comes from, by what the artist calls it."""
     heads = [_head(task.source), _head(task.target)]
-    settings = read_task_settings(task)
     return {
         "method": hash(task.method),
-        "settings": hash(settings),
+        "settings": hash(without_strengths(read_task_settings(task))),
         "meshes": hash(tuple(_mesh_sum(thing) for things in heads for thing in things)),
         "points": hash(tuple(_point_sum(thing) for things in heads for thing in things)),
         "parts": hash(tuple((part.thing, part.role) for things in heads for part in things[0].facial_retarget.parts)),
@@ -261,11 +298,15 @@ def _on_update(scene: Scene, depsgraph: Depsgraph) -> None:
     if _preview is None or scene.session_uid != _preview.scene or not _still_there():
         return
     things = _head(scene.facial_retarget.source)
-    if any(
-        update.id.original in things and (update.is_updated_geometry or update.is_updated_transform)
-        for update in depsgraph.updates
-    ):
+    changed = {
+        update.id.original for update in depsgraph.updates if update.is_updated_geometry or update.is_updated_transform
+    }
+    if changed.intersection(things):
         _preview.update(scene, depsgraph)
+    elif len(scene.facial_retarget.masks) and changed.intersection(_head(scene.facial_retarget.target)):
+        # The artist may have painted; what is written here comes in no further update.
+        _preview.masks = {}
+        _gain_again()
 
 
 def _still_there() -> bool:
@@ -361,8 +402,9 @@ def _halt() -> None:
     """Follow no longer; what is fitted is kept for a step of undo."""
     STATE.on, STATE.stale, STATE.trouble, STATE.listener = False, "", "", None
     _set_handlers(WORKING, False)
-    if bpy.app.timers.is_registered(_tick):
-        bpy.app.timers.unregister(_tick)
+    for timer in (_tick, _adjust):
+        if bpy.app.timers.is_registered(timer):
+            bpy.app.timers.unregister(timer)
     _redraw()
 
 
@@ -372,11 +414,39 @@ def _tick() -> float:
 
 
 def _on_change(what: str) -> None:
-    """A property of the task has changed."""
+    """A property of the task has changed: faces end the preview, gains act at once, the rest after a drag."""
     if what == "faces":
         stop_preview()
-    else:
+    elif _preview is not None and what in ("gains", "masks"):
+        if what == "masks":
+            _preview.masks = {}
+        _gain_again()
+    elif bpy.app.background:
+        _adjust()
+    elif not bpy.app.timers.is_registered(_adjust):
+        bpy.app.timers.register(_adjust, first_interval=PAUSE)
+
+
+def _adjust() -> None:
+    """Take over strengths of the method, or say that the fit is out of date."""
+    scene = _scene()
+    if _preview is not None and scene is not None and STATE.on:
+        _preview.adjust(scene)
+        _preview.update(scene, bpy.context.evaluated_depsgraph_get())
         check_origin()
+
+
+def _gain_again() -> None:
+    """Take over gains of regions and masks."""
+    scene = _scene()
+    if _preview is None or scene is None:
+        return
+    STATE.trouble = ""
+    try:
+        _preview.set_gains(scene)
+        _preview.write(scene, bpy.context.evaluated_depsgraph_get())
+    except RetargetError as error:
+        STATE.trouble = str(error)
 
 
 def _redraw() -> None:

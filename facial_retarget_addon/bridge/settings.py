@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from bpy.types import PropertyGroup
 
-from ..core.methods.settings import Settings, read_settings
+from ..core.methods.settings import RegionGains, Settings, read_settings, read_values
 
 
 def read_task_settings(task: PropertyGroup) -> Settings:
@@ -18,21 +18,32 @@ def read_task_settings(task: PropertyGroup) -> Settings:
 
 def read_method_settings(task: PropertyGroup, method: str) -> Settings:
     """The settings that the panel has for a method."""
-    group = getattr(task, method)
-    values = {name: _plain(getattr(group, name)) for name in group.__annotations__}
-    return read_settings(method, values, "the panel")
+    return read_settings(method, _plain_values(getattr(task, method)), "the panel")
+
+
+def read_group(cls: type[RegionGains], group: PropertyGroup) -> RegionGains:
+    """A dataclass from the property group that was made from it."""
+    return read_values(cls, _plain_values(group), "the panel")
+
+
+def write_group(group: PropertyGroup, values: Settings | RegionGains) -> None:
+    """Set a property group from the dataclass that it was made from; gains that are not given are 1."""
+    for setting in fields(values):
+        value = getattr(values, setting.name)
+        if isinstance(value, tuple):
+            size = len(getattr(group, setting.name))
+            value = (value + (1.0,) * size)[:size]
+        setattr(group, setting.name, value)
 
 
 def write_task_settings(task: PropertyGroup, method: str, settings: Settings) -> None:
     """Choose a method and set its settings; gains that are not given are 1."""
     task.method = method
-    group = getattr(task, method)
-    for setting in fields(settings):
-        value = getattr(settings, setting.name)
-        if isinstance(value, tuple):
-            size = len(getattr(group, setting.name))
-            value = (value + (1.0,) * size)[:size]
-        setattr(group, setting.name, value)
+    write_group(getattr(task, method), settings)
+
+
+def _plain_values(group: PropertyGroup) -> dict[str, Any]:
+    return {name: _plain(getattr(group, name)) for name in group.__annotations__}
 
 
 def _plain(value: Any) -> Any:

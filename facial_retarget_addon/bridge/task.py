@@ -11,6 +11,7 @@ from ..core.errors import RetargetError
 from ..core.problem import Face, Problem
 from .base_object import read_base
 from .examples import read_examples
+from .gains import read_gains
 from .heads import Head, head_parts, read_head
 from .performance import frame_kept, read_frame
 from .raycast import available_caster
@@ -53,6 +54,7 @@ def read_problem(context: Context) -> Problem:
         target=_face(heads[1], on_target),
         base=None if base is None else read_base(base),
         make_caster=available_caster(),
+        gains=read_gains(context.scene.facial_retarget, heads[1]),
     )
 
 

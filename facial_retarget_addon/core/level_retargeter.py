@@ -13,6 +13,7 @@ from .binding import apply_matrix
 from .carry import Motion
 from .errors import RetargetError
 from .levels.level_gains import Strengths
+from .methods.settings import LevelSettings
 from .pair import Pair
 from .parts.carried_parts import CarriedParts
 from .parts.report import still_components
@@ -38,7 +39,7 @@ class LevelRetargeter:
     pair : the two faces.
     make_motion : gives the motion of the target's vertices, before the examples, for strengths of its levels.
     strengths : the settings'.
-    make_fine_motion : gives the motion of the target's finest level, made when it is first asked for.
+    make_fine_motion : gives the motion of the target's finest level for strengths of its levels.
     parts : what follows the skin, and the eyeballs; None for nothing.
     """
 
@@ -47,28 +48,51 @@ class LevelRetargeter:
         pair: Pair,
         make_motion: Callable[[Strengths], Motion],
         strengths: Strengths,
-        make_fine_motion: Callable[[], Motion],
+        make_fine_motion: Callable[[Strengths], Motion],
         parts: CarriedParts | None = None,
     ) -> None:
         self._pair, self._make_motion, self._strengths = pair, make_motion, strengths
         self._make_fine_motion, self._parts = make_fine_motion, parts
         self.plain = make_motion(strengths)
         self._steering: Steering | None = None
-        self._figures: list[dict[str, Any]] = []
+        self._examples: list[Example] = []
+        self._measured: list[Example] = []
         self._source = pair.source.vertices.astype(np.float32)
         self._target = pair.target.vertices.astype(np.float32)
 
     def learn(self, examples: list[Example], trust: float) -> None:
         """Let examples steer the motion, from 0 (not at all) to 1."""
+        self._examples = examples
         self._steering = learn(self._pair.steering_base, examples, self.plain, trust)
-        self._figures = [] if self._steering is None else self._steering.figures
 
     def measure(self, examples: list[Example]) -> None:
         """Report how well the motion meets examples that it already comes from."""
-        base = self._pair.steering_base
-        for example in examples:
-            moved = self.plain((self._pair.source.vertices + example.source).astype(np.float32)[None])[0]
-            self._figures.append({"name": example.name, "fit": base.error(moved, example.target)})
+        self._measured = examples
+
+    def adjusted(self, settings: LevelSettings) -> LevelRetargeter:
+        """The same fit with other strengths of the levels, the detail and the examples."""
+        gains = tuple(settings.gain(level) for level in range(len(self._strengths.gains)))
+        strengths = Strengths(gains, settings.detail_scale)
+        again = LevelRetargeter(self._pair, self._make_motion, strengths, self._make_fine_motion, self._parts)
+        again.measure(self._measured)
+        again.learn(self._examples, settings.example_strength)
+        return again
+
+    def prepare_levels(self) -> None:
+        """Make now what other strengths will need, so that they act at once."""
+        self._make_motion(self._strengths.up_to(1))
+
+    @property
+    def _figures(self) -> list[dict[str, Any]]:
+        """How well each example is met, and how well the others foretell it."""
+        if self._steering is not None:
+            return self._steering.figures
+        base, rest = self._pair.steering_base, self._pair.source.vertices
+        moved = (self.plain((rest + example.source).astype(np.float32)[None])[0] for example in self._measured)
+        return [
+            {"name": example.name, "fit": base.error(there, example.target)}
+            for example, there in zip(self._measured, moved, strict=False)
+        ]
 
     @cached_property
     def report(self) -> Mapping[str, Any]:
@@ -144,7 +168,7 @@ class LevelRetargeter:
 
     @cached_property
     def _fine_motion(self) -> Motion:
-        return self._make_fine_motion()
+        return self._make_fine_motion(self._strengths)
 
     def _steered(self, frames: FloatArray, carried: FloatArray) -> FloatArray:
         return carried if self._steering is None else self._steering.steer(carried, frames)

@@ -98,7 +98,7 @@ def retarget(
 
 
 def checked_fit(method: str, problem: Problem, settings: Settings, progress: Progress = no_progress) -> Retargeter:
-    """Check a problem and fit a method to its two faces, for frames that come one by one.
+    """Check a problem and fit a method to its two faces, for frames that come one by one and strengths that change.
 
     Raises
     ------
@@ -106,7 +106,10 @@ def checked_fit(method: str, problem: Problem, settings: Settings, progress: Pro
     """
     if wrong := faults(problem, None, settings):
         raise RetargetError("; ".join(wrong))
-    return fit(method, problem, settings, progress)
+    retargeter = fit(method, problem, settings, progress)
+    if isinstance(retargeter, LevelRetargeter):
+        retargeter.prepare_levels()
+    return retargeter
 
 
 def level_motions(

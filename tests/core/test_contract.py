@@ -12,7 +12,7 @@ from facial_retarget_addon.core.errors import Cancelled, RetargetError
 from facial_retarget_addon.core.mesh import TriMesh
 from facial_retarget_addon.core.methods import METHODS
 from facial_retarget_addon.core.methods.base import Retargeter, fit
-from facial_retarget_addon.core.methods.settings import SETTINGS, Settings
+from facial_retarget_addon.core.methods.settings import SETTINGS, Settings, without_strengths
 from facial_retarget_addon.core.points import FeaturePoints
 from facial_retarget_addon.core.problem import Face, Problem
 from facial_retarget_addon.core.retarget import retarget
@@ -102,6 +102,21 @@ def test_shapes_types_and_finiteness(result: np.ndarray, frames: np.ndarray, pro
     assert result.shape == (len(frames), *problem.target.mesh.vertices.shape)
     assert result.dtype == np.float32
     assert np.isfinite(result).all()
+
+
+def test_adjusted_strengths_are_those_of_a_new_fit(
+    variant: tuple[str, Settings], fitted: Retargeter, problem: Problem, frames: np.ndarray
+) -> None:
+    method, settings = variant
+    others = {"base_gain": 0.8, "level_gains": (0.5, 2.0), "detail_scale": 0.3, "example_strength": 0.6}
+    changed = replace(settings, **{name: value for name, value in others.items() if hasattr(settings, name)})
+    assert without_strengths(changed) == without_strengths(settings)
+    found, wanted = fitted.adjusted(changed), fit(method, problem, changed)
+    close(found.frames(frames), wanted.frames(frames), problem.target.mesh.size, 1e-6)
+    for ours, theirs in zip(found.report["examples"], wanted.report["examples"], strict=True):
+        assert ours == pytest.approx(theirs, abs=1e-5)
+    if changed == settings:
+        assert np.array_equal(found.frames(frames), fitted.frames(frames))
 
 
 def test_neutral_in_neutral_out(fitted: Retargeter, problem: Problem) -> None:

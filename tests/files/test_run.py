@@ -17,9 +17,11 @@ import numpy as np
 import pytest
 
 from facial_retarget_addon.cli import main
+from facial_retarget_addon.core.methods.settings import RegionGains
 from facial_retarget_addon.files import run
 from facial_retarget_addon.files.frames import read_frames, write_frames
-from facial_retarget_addon.files.job import write_job
+from facial_retarget_addon.files.job import MaskFile, write_job
+from facial_retarget_addon.files.masks import write_mask
 from facial_retarget_addon.files.mesh_file import MeshFile
 from facial_retarget_addon.files.meshes import read_mesh, write_mesh
 
@@ -369,3 +371,32 @@ def test_frames_as_a_folder_of_obj_are_meshes_and_replace_older_ones(job):
     assert isinstance(written, MeshFile)
     np.testing.assert_array_equal(written.corners, target.corners)
     np.testing.assert_allclose(written.mesh.vertices, target.mesh.vertices, atol=1e-6)
+
+
+def test_a_mask_of_the_job_reaches_the_frames(job, capsys):
+    weights = np.where(np.arange(256) < 100, 1.0, 0.0)
+    write_mask(weights, job.path.with_name("mask.npz"))
+    write_job(replace(job, masks=(MaskFile("scar", job.path.with_name("mask.npz"), 0.5),)), job.path)
+    assert main(["run", str(job.path)]) == 0
+    assert json.loads(job.output.report.read_text())["gains"]["masks"] == {"scar": 0.5}
+
+
+@pytest.mark.parametrize("command", ["run", "check"])
+@pytest.mark.parametrize(
+    ("weights", "expected"),
+    [
+        (np.ones(3), "has weights of shape (3,)"),
+        (np.full(256, 2.0), "has weights that do not lie between 0 and 1"),
+        (np.full(256, np.nan), "has weights that do not lie between 0 and 1"),
+    ],
+)
+def test_a_mask_that_does_not_fit(job, listing, capsys, weights, expected, command):
+    write_mask(weights, job.path.with_name("mask.npz"))
+    write_job(replace(job, masks=(MaskFile("scar", job.path.with_name("mask.npz"), 0.5),)), job.path)
+    refused(job, listing, capsys, "mask.npz", expected, command=command)
+
+
+def test_regions_on_points_without_mpeg_names(job, listing, capsys):
+    write_job(replace(job, regions=RegionGains(mouth=0.5)), job.path)
+    refused(job, listing, capsys, "target:", "are too few to place them")
+    refused(job, listing, capsys, "target:", "are too few to place them", command="check")

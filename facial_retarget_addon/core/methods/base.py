@@ -34,6 +34,10 @@ class Retargeter(Protocol):
         """The fine mesh of source frames: positions (F, N, 3) float32, faces (M, 3)."""
         ...
 
+    def adjusted(self, settings: Any) -> Retargeter:
+        """The same fit with other strengths; all other settings of the method must be those of the fit."""
+        ...
+
 
 def fit(method: str, problem: Problem, settings: Settings, progress: Progress = no_progress) -> Retargeter:
     """Fit a method to a pair of faces; slow, once per pair.

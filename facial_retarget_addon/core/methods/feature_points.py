@@ -75,6 +75,10 @@ class FeaturePointRetargeter:
         there = self._points[0].positions(source.astype(np.float32)).astype(np.float64)
         return self._eyes.add_to(self._motion.frames(there - self._read.astype(np.float32)), source)
 
+    def adjusted(self, settings: FeaturePointSettings) -> FeaturePointRetargeter:
+        """The same: this method has no strengths."""
+        return self
+
     def detail(self, source: FloatArray) -> tuple[FloatArray, IntArray]:
         """The target's frames and its faces: this method has no finer mesh."""
         return self.frames(source), self._target.faces

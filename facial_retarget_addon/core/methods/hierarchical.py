@@ -73,7 +73,7 @@ def _default(
 
     # Parts that an example moves are left to the examples.
     parts = carried_parts(problem.source, problem.target, pair.steering_base.moved(examples))
-    retargeter = LevelRetargeter(pair, motion, strengths, lambda: fine_motion(strengths), parts)
+    retargeter = LevelRetargeter(pair, motion, strengths, fine_motion, parts)
     retargeter.learn(examples, settings.example_strength)
     return retargeter
 
@@ -94,7 +94,7 @@ def _paper(
     def motion(strengths: Strengths) -> Motion:
         return BlendedMotion(fine_motion(strengths), pair.binding, beyond)
 
-    retargeter = LevelRetargeter(pair, motion, strengths, lambda: fine_motion(strengths))
+    retargeter = LevelRetargeter(pair, motion, strengths, fine_motion)
     retargeter.measure(examples)
     return retargeter
 

@@ -9,6 +9,7 @@ unrolled.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from copy import copy
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -35,7 +36,7 @@ from ..problem import Problem
 from ..rigid import Similarity, fit_similarity
 from ..seams.lids import LidSeams, find_eye_margins
 from ..steering.base_places import denser_base
-from ..steering.learned import Steering, SteeringBase, learn
+from ..steering.learned import Example, Steering, SteeringBase, learn
 from ..unfolding import Unfolding
 from .settings import MotionCloningSettings
 
@@ -76,6 +77,7 @@ class MotionCloningRetargeter:
         self._problem, self._parts, self._figures = problem, parts, units.figures
         self._smoothing: sp.csr_matrix | None = None
         self._steering: Steering | None = None
+        self._lessons: tuple[SteeringBase, list[Example]]
         self._seams: LidSeams | None = None
         self._unfolding: Unfolding | None = None
         self._taught = np.zeros(len(problem.target.mesh.vertices), bool)
@@ -132,9 +134,19 @@ class MotionCloningRetargeter:
         examples = base.examples(self._problem)
         follows = self._parts.moves[:, None]
         of_skin = [example._replace(target=np.where(follows, 0.0, example.target)) for example in examples]
+        self._lessons = base, of_skin
         self._steering = learn(base, of_skin, self.plain, strength)
         if self._steering is not None:
             self._taught = base.moved(of_skin)
+
+    def adjusted(self, settings: MotionCloningSettings) -> MotionCloningRetargeter:
+        """The same fit with another strength of the examples."""
+        again = copy(self)
+        again.__dict__.pop("report", None)
+        again._steering = learn(*self._lessons, self.plain, settings.example_strength)
+        if again._steering is not None:
+            again._taught = self._lessons[0].moved(self._lessons[1])
+        return again
 
     def detail(self, source: FloatArray) -> tuple[FloatArray, IntArray]:
         """The target's frames and its faces: this method has no finer mesh."""

@@ -138,6 +138,9 @@ SETTINGS: dict[str, type[Settings]] = {
 LEVELED = tuple(name for name, settings in SETTINGS.items() if issubclass(settings, LevelSettings))
 """Methods whose motion is made of levels."""
 
+STRENGTHS = ("base_gain", "level_gains", "detail_scale", "example_strength")
+"""Settings that a fitted method can change without another fit; see `Retargeter.adjusted`."""
+
 LEAST_POINTS = 30
 """Common feature points from which a base mesh can be made."""
 FEWEST_POINTS = 8
@@ -163,6 +166,12 @@ class RegionGains:
 
 MASK_GAIN = fields(RegionGains)[0].metadata
 """Limits of the gain of a painted mask: those of the regions."""
+
+
+def without_strengths(settings: Settings) -> Settings:
+    """What a fit depends on: the settings with all strengths at their defaults."""
+    kept = {f.name: getattr(settings, f.name) for f in fields(settings) if f.name not in STRENGTHS}
+    return type(settings)(**kept)
 
 
 def read_settings(method: str, values: dict[str, Any], where: str = "[settings]") -> Settings:

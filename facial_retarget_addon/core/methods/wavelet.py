@@ -72,7 +72,7 @@ def fit(problem: Problem, settings: WaveletSettings, progress: Progress = no_pro
     progress(0.9, "preparing the motion")
     # Parts that an example moves are left to the examples.
     parts = carried_parts(problem.source, problem.target, pair.steering_base.moved(examples))
-    retargeter = LevelRetargeter(pair, levels.motion, strengths, lambda: levels.fine_motion(strengths), parts)
+    retargeter = LevelRetargeter(pair, levels.motion, strengths, levels.fine_motion, parts)
     retargeter.learn(examples, settings.example_strength)
     progress(1.0, "fitted")
     return retargeter

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -100,19 +101,36 @@ class Steering:
 
     Attributes
     ----------
+    base, examples, pairs, regions, trust : what they were learned from.
     residuals : what was learned.
     rest : (Vs, 3) float32, the source's neutral. read : (B, Vs) csr float32, its values at the base.
-    figures : per example, how well it is met, and how well the others foretell it.
     """
 
+    base: SteeringBase
+    examples: list[Example]
+    pairs: ExamplePairs
+    regions: ExampleRegions
+    trust: float
     residuals: ExampleResiduals
     rest: FloatArray
     read: sp.csr_matrix
-    figures: list[dict[str, Any]]
 
     def steer(self, carried: FloatArray, frames: FloatArray) -> FloatArray:
         """Displacements (F, Vt, 3) float32 for carried ones and the source's frames (F, Vs, 3) float32."""
         return self.residuals.steer(carried, apply_matrix(self.read, frames - self.rest))
+
+    @cached_property
+    def figures(self) -> list[dict[str, Any]]:
+        """Per example, how well it is met, and how well the others foretell it."""
+        figures = []
+        for m, example in enumerate(self.examples):
+            met = self.residuals.steer(self.pairs.carried[m : m + 1], self.pairs.base[m : m + 1])[0]
+            figure: dict[str, Any] = {"name": example.name, "fit": self.base.error(met, example.target)}
+            if len(self.examples) > 1:
+                foretold = self.regions.leave_one_out(self.pairs, m, self.trust)
+                figure["leave_one_out"] = self.base.error(foretold, example.target)
+            figures.append(figure)
+        return figures
 
 
 def learn(
@@ -139,14 +157,6 @@ def learn(
         base.target.vertex_areas,
         base.target_separation,
     )
-    residuals = regions.fit(pairs, trust)
-    figures = []
-    for m, example in enumerate(examples):
-        met = residuals.steer(carried[m : m + 1], at_base[m : m + 1])[0]
-        figure: dict[str, Any] = {"name": example.name, "fit": base.error(met, example.target)}
-        if len(examples) > 1:
-            figure["leave_one_out"] = base.error(regions.leave_one_out(pairs, m, trust), example.target)
-        figures.append(figure)
     rest = base.source.vertices.astype(np.float32)
     read = base.source_points.matrix(len(rest)).astype(np.float32)
-    return Steering(residuals, rest, read, figures)
+    return Steering(base, examples, pairs, regions, trust, regions.fit(pairs, trust), rest, read)

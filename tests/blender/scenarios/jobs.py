@@ -32,6 +32,11 @@ settings = task.hierarchical
 settings.levels, settings.variant, settings.read = 3, "paper", "pierce"
 settings.base_gain, settings.detail_scale = 0.7, 1.9
 settings.level_gains[1] = 0.3
+task.regions.mouth, task.regions.jaw = 0.7, 1.2
+for name, weight, gain in (("scar", 1.0, 0.3), ("left half", 0.25, 2.0)):
+    task.target.vertex_groups.new(name=name).add([3, 5, 9], weight, "REPLACE")
+    bpy.ops.facial_retarget.add_mask()
+    task.masks[-1].gain = gain
 task.output = str(folder / "out.pc2")
 task.report = str(folder / "report.json")
 
@@ -41,6 +46,8 @@ assert first.settings.level_gains == (1.0, 0.3), first.settings
 assert (first.settings.base_gain, first.settings.detail_scale) == (0.7, 1.9), first.settings
 assert first.output == jobs.OutputFiles(folder / "out.pc2", folder / "report.json", None), first.output
 assert [example.name for example in first.examples] == ["joy", "a/b"]
+assert asdict(first.regions) == {"brows": 1.0, "eyes": 1.0, "nose": 1.0, "cheeks": 1.0, "mouth": 0.7, "jaw": 1.2}
+assert [(mask.name, mask.gain) for mask in first.masks] == [("scar", 0.3), ("left half", 2.0)]
 
 empty_scene()
 bpy.ops.facial_retarget.load_job(filepath=str(folder / "first.toml"))
@@ -48,6 +55,10 @@ task = bpy.context.scene.facial_retarget
 assert base_object.read_base(task.base) == triangles
 assert task.source.data.uv_layers.active is not None
 assert task.target.data.uv_layers.active is None
+masks = part("bridge.task").read_problem(bpy.context).gains.masks
+assert list(masks) == ["scar", "left half"]
+assert np.array_equal(masks["left half"].weights.nonzero()[0], [3, 5, 9])
+assert np.array_equal(masks["left half"].weights[[3, 5, 9]], [0.25] * 3)
 read = part("bridge.performance").read_frames(bpy.context, task.source, part("bridge.task").frame_range(bpy.context))
 np.testing.assert_allclose(part("bridge.background").finished(read), frames, atol=2e-7)
 
@@ -55,6 +66,8 @@ bpy.ops.facial_retarget.save_job(filepath=str(folder / "second.toml"))
 second = jobs.read_job(folder / "second.toml")
 assert asdict(second.settings) == asdict(first.settings), (first.settings, second.settings)
 assert (second.method, second.output) == (first.method, first.output)
+assert asdict(second.regions) == asdict(first.regions)
+assert [(mask.name, mask.gain) for mask in second.masks] == [(mask.name, mask.gain) for mask in first.masks]
 assert list(second.inputs()) == list(first.inputs())
 for path, again in zip(first.inputs().values(), second.inputs().values(), strict=True):
     if path.suffix != ".npz":

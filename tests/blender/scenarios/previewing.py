@@ -94,6 +94,43 @@ assert saved.data.shape_keys is None
 assert np.array_equal(positions(saved), rest)
 bpy.data.batch_remove([saved, saved.data])
 
+# Gains act at once, and as they do in a bake.
+task = bpy.context.scene.facial_retarget
+weights = part("core.face_regions").region_weights(part("bridge.heads").read_head(target).face)
+task.regions.mouth, task.regions.brows = 0.5, 1.5
+strength = 1 + weights @ [0.5, 0, 0, 0, -0.5, 0]
+np.testing.assert_allclose(shown(target), rest + strength[:, None] * (wanted(7) - rest), atol=1e-5 * size)
+group = target.vertex_groups.new(name="left")
+group.add(np.flatnonzero(rest[:, 0] > 0).tolist(), 1.0, "REPLACE")
+assert bpy.ops.facial_retarget.add_mask() == {"FINISHED"}
+assert task.masks[0].name == "left"
+task.masks[0].gain = 0.25
+strength *= np.where(rest[:, 0] > 0, 0.25, 1.0)
+np.testing.assert_allclose(shown(target), rest + strength[:, None] * (wanted(7) - rest), atol=1e-5 * size)
+group.add(np.flatnonzero(rest[:, 0] > 0).tolist(), 0.0, "REPLACE")
+target.data.update()
+bpy.context.view_layer.update()
+strength = 1 + weights @ [0.5, 0, 0, 0, -0.5, 0]
+np.testing.assert_allclose(shown(target), rest + strength[:, None] * (wanted(7) - rest), atol=1e-5 * size)
+task.regions.mouth = task.regions.brows = 1.0
+assert bpy.ops.facial_retarget.remove_mask() == {"FINISHED"}
+np.testing.assert_allclose(shown(target), wanted(7), atol=1e-5 * size)
+
+# So do the strengths of the levels.
+task.method = "hierarchical"
+bpy.ops.facial_retarget.start_preview()
+at_one = shown(target)
+task.hierarchical.base_gain, task.hierarchical.detail_scale = 0.5, 0.0
+halved = shown(target)
+assert np.abs(halved - at_one).max() > 0.01 * size
+assert not part("preview_state").STATE.stale
+bpy.ops.facial_retarget.start_preview()
+np.testing.assert_allclose(shown(target), halved, atol=1e-5 * size)
+task.hierarchical.base_gain = task.hierarchical.detail_scale = 1.0
+np.testing.assert_allclose(shown(target), at_one, atol=1e-5 * size)
+task.method = "motion_cloning"
+bpy.ops.facial_retarget.start_preview()
+
 # Out of date: says so, and a refresh takes it in.
 state = part("preview_state").STATE
 check = part("bridge.preview").check_origin

@@ -1,0 +1,55 @@
+"""Painted masks of the target."""
+
+from bpy.types import Context, Operator
+
+
+class OnTarget:
+    """For operators on the target."""
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        """A target must be chosen."""
+        if context.scene.facial_retarget.target is None:
+            cls.poll_message_set("Choose a target under Faces")
+            return False
+        return True
+
+
+class FACIAL_RETARGET_OT_add_mask(OnTarget, Operator):
+    """Let a vertex group of the target make the motion weaker or stronger; one is made if there is none to take"""
+
+    bl_idname = "facial_retarget.add_mask"
+    bl_label = "Add Mask"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context: Context) -> set[str]:
+        """List it."""
+        from ..facial_retarget_addon.bridge.gains import add_mask
+
+        add_mask(context.scene.facial_retarget)
+        return {"FINISHED"}
+
+
+class FACIAL_RETARGET_OT_remove_mask(OnTarget, Operator):
+    """Take the mask off the list; its vertex group stays"""
+
+    bl_idname = "facial_retarget.remove_mask"
+    bl_label = "Remove Mask"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        """As `OnTarget`; there must be a mask."""
+        if not super().poll(context):
+            return False
+        if not len(context.scene.facial_retarget.masks):
+            cls.poll_message_set("There is no mask")
+            return False
+        return True
+
+    def execute(self, context: Context) -> set[str]:
+        """Remove it."""
+        from ..facial_retarget_addon.bridge.gains import remove_mask
+
+        remove_mask(context.scene.facial_retarget)
+        return {"FINISHED"}
