@@ -414,6 +414,49 @@ class FACIAL_RETARGET_PG_overlay(PropertyGroup):
     )
 
 
+class FACIAL_RETARGET_PG_normal_maps(PropertyGroup):
+    """How normal maps of the performance are made."""
+
+    light: EnumProperty(
+        name="For",
+        description="The mesh that the maps are for",
+        items=[
+            ("TARGET", "Target", "The target's own mesh, with its active UV map"),
+            ("LEVEL", "Level", "A coarse level of the target's normal mesh, which becomes an object with its own UVs"),
+        ],
+    )
+    level: IntProperty(name="Level", default=2, min=1, max=6, description="Level that the maps are for: 1 is coarsest")
+    pixels: EnumProperty(
+        name="Size",
+        description="Pixels along each side of a map",
+        items=[(str(size), f"{size} px", f"{size} by {size} pixels") for size in (256, 512, 1024, 2048, 4096)],
+        default="1024",
+    )
+    margin: IntProperty(
+        name="Margin",
+        default=8,
+        min=0,
+        soft_max=64,
+        description="Pixels that the map goes on past the borders of the UVs",
+    )
+    depth: EnumProperty(
+        name="Depth",
+        description="What a picture file holds",
+        items=[
+            ("png16", "PNG, 16 Bits", "Fine enough for smooth skin"),
+            ("png8", "PNG, 8 Bits", "Small files, as games use them"),
+            ("exr", "OpenEXR", "Floats, as they were computed"),
+        ],
+    )
+    directx: BoolProperty(
+        name="DirectX", description="Green points down, as DirectX has it; up as OpenGL has it if off"
+    )
+    folder: StringProperty(name="Folder", subtype="DIR_PATH", description="Folder that the maps become; it is replaced")
+    wire: BoolProperty(
+        name="Show in Materials", default=True, description="Let the materials' Principled shaders show the maps"
+    )
+
+
 class FACIAL_RETARGET_PG_task(PropertyGroup):
     """One retargeting task: the panel, and what a job file holds."""
 
@@ -451,6 +494,7 @@ class FACIAL_RETARGET_PG_task(PropertyGroup):
     examples_checked: StringProperty(name="Checked", description="Tells the examples that the figures belong to")
     sculpting: PointerProperty(type=FACIAL_RETARGET_PG_sculpting)
     cloning: PointerProperty(type=FACIAL_RETARGET_PG_cloning)
+    normal_maps: PointerProperty(type=FACIAL_RETARGET_PG_normal_maps)
     overlay: PointerProperty(type=FACIAL_RETARGET_PG_overlay)
     method: EnumProperty(
         name="Method",
@@ -494,6 +538,7 @@ CLASSES = (
     FACIAL_RETARGET_PG_regions,
     FACIAL_RETARGET_PG_mask,
     FACIAL_RETARGET_PG_cloning,
+    FACIAL_RETARGET_PG_normal_maps,
     FACIAL_RETARGET_PG_overlay,
     FACIAL_RETARGET_PG_task,
     FACIAL_RETARGET_PG_work,

@@ -194,12 +194,14 @@ def test_a_performance_becomes_maps_of_the_artists_mesh(fitted: tuple) -> None:
     retargeter, performance, child = fitted
     made = FrameMaps(retargeter, performance[0], skin_surface(child), MapSize(128, 4))
     assert list(made.maps) == [(0, 0)]
-    still = made.frame(performance[0])[0, 0]
+    light, tiles = made.frame(performance[0])
+    still = tiles[0, 0]
+    np.testing.assert_array_equal(light, child.face.mesh.vertices.astype(np.float32))
     liveliest = performance[np.abs(performance - performance[0]).max(axis=(1, 2)).argmax()]
-    lively = made.frame(liveliest)[0, 0]
+    lively = made.frame(liveliest)[1][0, 0]
     np.testing.assert_allclose(np.linalg.norm(lively, axis=2), 1, atol=1e-5)
     assert np.abs(lively - still).max() > 0.05
-    again = made.frame(performance[0])[0, 0]
+    again = made.frame(performance[0])[1][0, 0]
     np.testing.assert_array_equal(still, again)
 
 
@@ -208,6 +210,8 @@ def test_a_level_gets_a_chart_and_its_maps(fitted: tuple) -> None:
     made = FrameMaps(retargeter, performance[0], 1, MapSize(64, 4))
     assert len(made.surface.mesh.faces) == len(retargeter.level_faces(1))
     assert made.maps[0, 0].missed < 0.01 * len(made.maps[0, 0].pixel)
-    assert made.frame(performance[0])[0, 0].shape == (64, 64, 3)
+    light, tiles = made.frame(performance[0])
+    assert tiles[0, 0].shape == (64, 64, 3)
+    assert len(light) == len(made.surface.mesh.vertices)
     with pytest.raises(RetargetError, match="level 4 was asked for, and the method has levels 1 to 3"):
         FrameMaps(retargeter, performance[0], 4, MapSize(64, 4))

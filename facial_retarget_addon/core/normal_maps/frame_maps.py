@@ -71,16 +71,14 @@ class FrameMaps:
             progress(number / len(found), "placing the pixels")
             self.maps[tile] = fit_normal_map(self.surface, fine, size.pixels, tile, size.margin, strength, make_caster)
 
-    def light(self, target: FloatArray, fine: FloatArray) -> FloatArray:
-        """(V, 3) the light mesh of a frame: target (Vt, 3), finest level (N, 3)."""
-        return (target if self._own else fine)[: len(self.surface.mesh.vertices)]
+    def frame(self, source: FloatArray) -> tuple[FloatArray, dict[Tile, FloatArray]]:
+        """The light mesh (V, 3) of a source frame (Vs, 3), and each tile's unit normals (size, size, 3).
 
-    def frame(self, source: FloatArray) -> dict[Tile, FloatArray]:
-        """Unit normals (size, size, 3) of each tile for a source frame (Vs, 3); see `NormalMap.vectors`."""
+        See `NormalMap.vectors`.
+        """
         (fine,), _ = self._retargeter.detail(source[None])
-        (target,) = self._retargeter.frames(source[None])
-        light = self.light(target, fine)
-        return {tile: held.vectors(light, fine) for tile, held in self.maps.items()}
+        light = (self._retargeter.frames(source[None])[0] if self._own else fine)[: len(self.surface.mesh.vertices)]
+        return light, {tile: held.vectors(light, fine) for tile, held in self.maps.items()}
 
 
 def _level_surface(fine: TriMesh, faces: IntArray) -> TexturedSurface:

@@ -1,0 +1,141 @@
+"""Normal maps of the task's performance: pictures in a folder, wired into materials."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import NamedTuple, cast
+
+import bpy
+import numpy as np
+from bpy.types import Context, Object
+
+from ..core.arrays import FloatArray, Progress, progress_part
+from ..core.errors import RetargetError
+from ..core.level_retargeter import LevelRetargeter
+from ..core.methods.settings import LEVELED
+from ..core.normal_maps.frame_maps import FrameMaps, MapSize
+from ..core.normal_maps.surface import TexturedSurface
+from ..core.retarget import checked_fit
+from ..files.normal_map_files import MapFiles, write_frame_maps
+from ..files.whole import written_whole
+from .background import Steps, in_thread, part
+from .bake import write_frames
+from .heads import head_parts, read_head
+from .key_sets import check_targets
+from .map_nodes import MapSequence, wire
+from .meshes import from_face_space, new_object, read_face
+from .performance import read_frames
+from .raycast import available_caster
+from .settings import read_task_settings
+from .task import frame_range, read_problem
+
+UV_NAME = "UVMap"
+READING = 0.1
+
+
+class MadeMaps(NamedTuple):
+    """Where the maps went: the folder, the object that they are for, and warnings."""
+
+    folder: Path
+    thing: Object
+    warnings: list[str]
+
+
+class _Computed(NamedTuple):
+    """The maps, and the light mesh (F, V, 3) of the frames."""
+
+    maps: FrameMaps
+    light: FloatArray
+
+
+def normal_map_steps(context: Context) -> Steps[MadeMaps]:
+    """Make the normal maps of the task's frames, and let materials show them.
+
+    The light mesh is the target itself, or a level of its normal mesh, which becomes an object with the frames as keys.
+    Closing the steps at any time leaves scene and disk as they were.
+
+    Raises
+    ------
+    RetargetError : for bad input, a method without levels, a target without UVs; says what, and on which object.
+    """
+    task = context.scene.facial_retarget
+    wish, method, settings = task.normal_maps, task.method, read_task_settings(task)
+    if method not in LEVELED:
+        raise RetargetError(f"method {method!r} has no levels, expected one of {', '.join(LEVELED)}")
+    folder = chosen_folder(wish.folder)
+    problem = read_problem(context)
+    check_targets((task.source, *head_parts(task.source)), read_head(task.target).things)
+    light = wish.level if wish.light == "LEVEL" else textured_surface(task.target)
+    files, size = MapFiles(wish.depth, wish.directx), MapSize(int(wish.pixels), wish.margin)
+    frames = frame_range(context)
+    source = yield from part(read_frames(context, task.source, frames), 0.0, READING)
+    with written_whole() as aside:
+        place = aside.place(folder, replaces=files.suffix)
+        place.mkdir()
+
+        def compute(progress: Progress) -> _Computed:
+            made = checked_fit(method, problem, settings, progress_part(progress, 0.0, 0.3))
+            maps = FrameMaps(
+                cast(LevelRetargeter, made),
+                problem.source.mesh.vertices,
+                light,
+                size,
+                available_caster(),
+                progress_part(progress, 0.3, 0.4),
+            )
+            return _Computed(
+                maps, write_frame_maps(place, files, maps, source, frames.start, progress_part(progress, 0.4, 1.0))
+            )
+
+        computed = yield from part(in_thread(compute), READING, 1 - READING)
+    thing = task.target
+    if wish.light == "LEVEL":
+        thing = _level_object(task.target, wish.level, computed, frames.start)
+    sequence = MapSequence(folder, files, tuple(computed.maps.maps), frames)
+    warnings = wire(thing, sequence) if wish.wire else []
+    return MadeMaps(folder, thing, warnings)
+
+
+def chosen_folder(path: str) -> Path:
+    """The folder that a property names, absolute.
+
+    Raises
+    ------
+    RetargetError : if none is named, or it lies beside a .blend that is not saved yet.
+    """
+    if not path:
+        raise RetargetError("no folder is chosen for the normal maps, expected one under Normal Maps")
+    if path.startswith("//") and not bpy.data.filepath:
+        raise RetargetError(f"folder {path!r} lies beside the .blend, which is not saved yet; save it, or name another")
+    return Path(bpy.path.abspath(path)).absolute()
+
+
+def textured_surface(thing: Object) -> TexturedSurface:
+    """An object's mesh in its neutral with the UVs of its active map.
+
+    Raises
+    ------
+    RetargetError : if it has no UVs, or as `read_face`.
+    """
+    face = read_face(thing)
+    if face.uvs is None:
+        raise RetargetError(
+            f"object {thing.name!r} has no UV map, expected one for its normal maps; unwrap it, or make the maps for a "
+            "level of its normal mesh"
+        )
+    return TexturedSurface(face.mesh, face.counts, face.corners, face.uvs)
+
+
+def _level_object(target: Object, level: int, computed: _Computed, first: int) -> Object:
+    """A level of the target's normal mesh as an object, with its frames as shape keys; an earlier one is replaced."""
+    name = f"{target.name} level {level}"
+    before = bpy.data.objects.get(name)
+    if before is not None and before.type == "MESH":
+        bpy.data.meshes.remove(before.data)
+    surface = computed.maps.surface
+    made = new_object(name, from_face_space(target, surface.mesh.vertices), surface.counts, surface.corners)
+    made.data.shade_smooth()
+    made.data.uv_layers.new(name=UV_NAME).uv.foreach_set("vector", np.ravel(surface.uvs).astype(np.float32))
+    made.matrix_world = target.matrix_world
+    write_frames(made, computed.light, first)
+    return made
