@@ -88,7 +88,7 @@ class FACIAL_RETARGET_OT_rough_out(OnExample, InSteps, Operator):
         if result.unable:
             self.report({"WARNING"}, f"{', '.join(result.unable)}: there is nothing to make it from, sculpt it")
         kept = f", {len(result.kept)} kept" if result.kept else ""
-        self.report({"INFO"}, f"{len(result.made)} examples roughed out{kept}")
+        self.report({"INFO"}, f"Roughed out: {', '.join(result.made)}{kept}")
 
 
 class FACIAL_RETARGET_OT_mirror_example(OnExample, InSteps, Operator):

@@ -6,18 +6,19 @@ from .tab import Step, draw_text, filled
 
 
 class FACIAL_RETARGET_UL_examples(UIList):
-    """An example: what it is on source and target, and the buttons to sculpt it there."""
+    """An example: what the others would miss of it, what it is on source and target, and the buttons to sculpt it."""
 
     def draw_item(
         self, context: Context, layout: UILayout, data: PropertyGroup, item: PropertyGroup, icon: int, active: object
     ) -> None:
         """Draw a row."""
         row = layout.row(align=True)
-        row.label(text=item.name, icon="ERROR" if item.warning else "SHAPEKEY_DATA", translate=False)
+        row.label(text=item.name, icon="ERROR" if item.warning else "NONE", translate=False)
         if item.checked:
-            row.label(
-                text=f"{item.fit:.0%}" if item.leave_one_out < 0 else f"{item.fit:.0%} · {item.leave_one_out:.0%}"
-            )
+            figure = row.row(align=True)
+            figure.alignment = "RIGHT"
+            missing = item.fit if item.leave_one_out < 0 else item.leave_one_out
+            figure.label(text=f"{missing:.0%}", translate=False)
         for side in ("source", "target"):
             _draw_side(row.row(align=True), data.sculpting, item, side)
 
@@ -61,6 +62,7 @@ class FACIAL_RETARGET_PT_examples(Step, Panel):
         buttons.operator("facial_retarget.remove_example", text="", icon="REMOVE")
         if task.active_example in range(len(task.examples)):
             _draw_chosen(layout, context, task.examples[task.active_example])
+        layout.operator_menu_enum("facial_retarget.rough_out", "way", text="Rough Out All on Target")
         layout.operator("facial_retarget.check_examples")
 
 
@@ -68,21 +70,20 @@ def _draw_chosen(layout: UILayout, context: Context, example: PropertyGroup) -> 
     """What is wrong with the chosen example, how well it is met, and what can be done with it on either face."""
     if example.warning:
         draw_text(layout, context, example.warning, "ERROR")
-    if example.checked:
-        draw_text(layout, context, filled("Missed by {fit:.1%} of its motion", fit=example.fit))
-    if example.checked and example.leave_one_out >= 0:
-        draw_text(layout, context, filled("Without it {share:.0%} would be missing", share=example.leave_one_out))
+    if example.checked and example.leave_one_out < 0:
+        draw_text(layout, context, filled("Met but for {fit:.1%} of its motion", fit=example.fit), "CHECKMARK")
+    elif example.checked:
+        figures = {"fit": example.fit, "share": example.leave_one_out}
+        text = "Met but for {fit:.1%} of its motion; without it {share:.0%} would be missing"
+        draw_text(layout, context, filled(text, **figures), "CHECKMARK")
     columns = layout.row()
     for side, label in (("SOURCE", "Source"), ("TARGET", "Target")):
         column = columns.column(align=True)
         column.label(text=label)
-        for button, way in (
-            (column.operator("facial_retarget.sculpt_example", text="Sculpt", icon="SCULPTMODE_HLT"), ""),
-            (column.operator("facial_retarget.rough_out", text="From Points"), "POINTS"),
-            (column.operator("facial_retarget.rough_out", text="From Other Face"), "CLONE"),
-            (column.operator_menu_enum("facial_retarget.mirror_example", "way"), ""),
-            (column.operator("facial_retarget.scale_example"), ""),
+        for button in (
+            column.operator("facial_retarget.sculpt_example", text="Sculpt", icon="SCULPTMODE_HLT"),
+            column.operator_menu_enum("facial_retarget.rough_out", "way", icon="OUTLINER_DATA_POINTCLOUD"),
+            column.operator_menu_enum("facial_retarget.mirror_example", "way", icon="MOD_MIRROR"),
+            column.operator("facial_retarget.scale_example", icon="FULLSCREEN_ENTER"),
         ):
             button.example, button.side = example.name, side
-            if way:
-                button.way = way

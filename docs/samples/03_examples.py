@@ -26,3 +26,15 @@ for key, still in zip(task.target.data.shape_keys.key_blocks["surprise"].points,
 
 # Retargeting again replaces the frames that were baked before.
 bpy.ops.facial_retarget.retarget()
+
+# Or have them made roughly: joy on both faces out of the source's feature points, then cloned from there.
+bpy.ops.facial_retarget.rough_out(example="joy", side="SOURCE", way="POINTS")
+bpy.ops.facial_retarget.rough_out(example="joy", side="TARGET", way="CLONE")
+bpy.ops.facial_retarget.mirror_example(example="joy", side="TARGET", way="LEFT_TO_RIGHT")
+bpy.ops.facial_retarget.scale_example(example="joy", side="TARGET", factor=0.8)
+
+# How well each one is met, and how much of it would be missing if only the others were known.
+bpy.ops.facial_retarget.check_examples()
+for example in task.examples:
+    if example.checked:
+        print(f"{example.name}: {example.fit:.1%} missed, {example.leave_one_out:.0%} without it")

@@ -49,13 +49,17 @@ def stop_sculpting(context: Context) -> None:
     """Leave Sculpt Mode, and give back the pin, the active shape key and the active object that were before."""
     sculpting = context.scene.facial_retarget.sculpting
     thing, before, objects = sculpting.thing, sculpting.before, context.view_layer.objects
-    sculpting.thing = sculpting.before = None
-    changed()
-    if thing is None or objects.get(thing.name) != thing:
-        return
-    if thing.mode == "SCULPT":
+    there = thing is not None and objects.get(thing.name) == thing
+    if there and thing.mode == "SCULPT":
         objects.active = thing
         bpy.ops.object.mode_set(mode="OBJECT")
+        # Undoing back to a stroke, Blender enters Sculpt Mode on whatever is active, and restores nothing else: the
+        # step before the stroke must have all as it was in Sculpt Mode.
+        bpy.ops.ed.undo_push(message="Leave Sculpt Mode")
+    sculpting.thing = sculpting.before = None
+    changed()
+    if not there:
+        return
     thing.show_only_shape_key = sculpting.pinned
     if find_key(thing, sculpting.key) is not None:
         thing.active_shape_key_index = thing.data.shape_keys.key_blocks.find(sculpting.key)
