@@ -3,7 +3,7 @@
 from bpy.types import Context, Operator
 
 from .errors import tells_user
-from .polls import OnFace
+from .polls import OnChosen, OnFace
 
 
 class FACIAL_RETARGET_OT_add_parts(OnFace, Operator):
@@ -23,19 +23,17 @@ class FACIAL_RETARGET_OT_add_parts(OnFace, Operator):
         return {"FINISHED"}
 
 
-class FACIAL_RETARGET_OT_remove_part(OnFace, Operator):
+class FACIAL_RETARGET_OT_remove_part(OnChosen, Operator):
     """Take the chosen part off the list; its object stays"""
 
     bl_idname = "facial_retarget.remove_part"
     bl_label = "Remove Part"
     bl_options = {"REGISTER", "UNDO"}
+    listed, chosen, missing = "parts", "active_part", "Choose a part in the list"
 
     def execute(self, context: Context) -> set[str]:
         """Take the part off that is chosen in the list."""
         face = context.active_object.facial_retarget
-        if face.active_part not in range(len(face.parts)):
-            self.report({"ERROR"}, "there is no part to remove")
-            return {"CANCELLED"}
         face.parts.remove(face.active_part)
         face.active_part = max(face.active_part - 1, 0)
         return {"FINISHED"}

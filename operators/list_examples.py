@@ -36,12 +36,18 @@ class FACIAL_RETARGET_OT_remove_example(OnTask, Operator):
     bl_label = "Remove Example"
     bl_options = {"REGISTER", "UNDO"}
 
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        """As `OnTask`; the list must have a chosen row."""
+        task = context.scene.facial_retarget
+        if task.active_example not in range(len(task.examples)):
+            cls.poll_message_set("Choose an example in the list")
+            return False
+        return super().poll(context)
+
     def execute(self, context: Context) -> set[str]:
         """Take the example off that is chosen in the list."""
         task = context.scene.facial_retarget
-        if task.active_example not in range(len(task.examples)):
-            self.report({"ERROR"}, "there is no example to remove")
-            return {"CANCELLED"}
         task.examples.remove(task.active_example)
         task.active_example = max(task.active_example - 1, 0)
         return {"FINISHED"}

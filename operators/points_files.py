@@ -7,7 +7,7 @@ from bpy.types import Context, Operator
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
 from .errors import tells_user
-from .polls import OnFace
+from .polls import OnFace, OnPoints
 
 
 class FACIAL_RETARGET_OT_load_points(OnFace, Operator, ImportHelper):
@@ -36,11 +36,12 @@ class FACIAL_RETARGET_OT_load_points(OnFace, Operator, ImportHelper):
         return {"FINISHED"}
 
 
-class FACIAL_RETARGET_OT_save_points(OnFace, Operator, ExportHelper):
+class FACIAL_RETARGET_OT_save_points(OnPoints, Operator, ExportHelper):
     """Save the feature points of the active face to a file"""
 
     bl_idname = "facial_retarget.save_points"
     bl_label = "Save Feature Points"
+    missing = "The face has no feature points"
 
     filename_ext = ".json"
     filter_glob: StringProperty(default="*.json", options={"HIDDEN"})

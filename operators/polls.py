@@ -28,8 +28,27 @@ class OnFace:
         return in_mode(cls, context, cls.modes)
 
 
+class OnChosen(OnFace):
+    """For operators on what is chosen in a list of the active face."""
+
+    listed, chosen, missing = "points", "active_point", "Choose a feature point in the list"
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        """As `OnFace`; the list must have a chosen row."""
+        if not super().poll(context):
+            return False
+        face = context.active_object.facial_retarget
+        if getattr(face, cls.chosen) not in range(len(getattr(face, cls.listed))):
+            cls.poll_message_set(cls.missing)
+            return False
+        return True
+
+
 class OnPoints(OnFace):
     """For operators on the active mesh object and its feature points."""
+
+    missing = "Give the face feature points with MPEG-4 names first"
 
     @classmethod
     def poll(cls, context: Context) -> bool:
@@ -37,7 +56,7 @@ class OnPoints(OnFace):
         if not super().poll(context):
             return False
         if not len(context.active_object.facial_retarget.points):
-            cls.poll_message_set("Give the face feature points with MPEG-4 names first")
+            cls.poll_message_set(cls.missing)
             return False
         return True
 

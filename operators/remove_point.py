@@ -3,10 +3,10 @@
 from bpy.types import Context, Operator
 
 from .errors import tells_user
-from .polls import OnFace
+from .polls import OnChosen
 
 
-class FACIAL_RETARGET_OT_remove_point(OnFace, Operator):
+class FACIAL_RETARGET_OT_remove_point(OnChosen, Operator):
     """Remove the chosen feature point from the active face"""
 
     bl_idname = "facial_retarget.remove_point"
@@ -20,9 +20,6 @@ class FACIAL_RETARGET_OT_remove_point(OnFace, Operator):
         from ..facial_retarget_addon.bridge.points import remove_point
 
         face = context.active_object.facial_retarget
-        if face.active_point not in range(len(face.points)):
-            self.report({"ERROR"}, f"{context.active_object.name} has no feature point to remove")
-            return {"CANCELLED"}
         remove_point(context.active_object, face.points[face.active_point].name)
         update_predictions(context.active_object)
         return {"FINISHED"}
