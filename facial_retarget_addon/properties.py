@@ -504,7 +504,7 @@ class FACIAL_RETARGET_PG_task(PropertyGroup):
     )
     regions: PointerProperty(type=FACIAL_RETARGET_PG_regions)
     masks: CollectionProperty(type=FACIAL_RETARGET_PG_mask, description="Painted masks of the target")
-    active_mask: IntProperty(name="Active mask", description="The mask that is chosen in the list")
+    active_mask: IntProperty(name="Active Mask", description="The mask that is chosen in the list")
     report: StringProperty(name="Report", subtype="FILE_PATH", description="Where to write the figures (.json)")
     page: StringProperty(name="Page", subtype="FILE_PATH", description="Where to write the page to look at (.html)")
     output: StringProperty(

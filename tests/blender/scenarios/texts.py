@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import bpy
 from stage import NAME, enable
 
-SMALL = {"a", "an", "and", "as", "at", "by", "for", "from", "in", "of", "on", "or", "per", "the", "to", "with"}
+SMALL = {"a", "an", "and", "as", "at", "by", "for", "from", "in", "of", "on", "or", "per", "the", "to", "with", "px"}
 enable()
 wrong: list[str] = []
 
