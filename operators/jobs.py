@@ -1,21 +1,24 @@
 """Load a job file into the scene, and save the scene's task as one."""
 
 from pathlib import Path
+from typing import Any
 
 from bpy.props import EnumProperty, StringProperty
 from bpy.types import Context, Operator
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
 from .errors import tells_user
+from .in_steps import FromBrowser, InSteps
 from .polls import OnCloning, OnTask, in_mode
 
 
-class FACIAL_RETARGET_OT_load_job(Operator, ImportHelper):
-    """Load a job file: its faces become objects, its settings the panel's"""
+class FACIAL_RETARGET_OT_load_job(FromBrowser, ImportHelper, InSteps, Operator):
+    """Load a job file: its faces become objects, its settings the panel's; Esc stops"""
 
     bl_idname = "facial_retarget.load_job"
     bl_label = "Load Job"
     bl_options = {"REGISTER", "UNDO"}
+    doing = "Loading the job"
 
     filename_ext = ".toml"
     filter_glob: StringProperty(default="*.toml", options={"HIDDEN"})
@@ -30,33 +33,36 @@ class FACIAL_RETARGET_OT_load_job(Operator, ImportHelper):
         """Only in Object Mode."""
         return in_mode(cls, context)
 
-    @tells_user
-    def execute(self, context: Context) -> set[str]:
+    def steps(self, context: Context) -> Any:
         """Read everything, then make the objects."""
-        from ..facial_retarget_addon.bridge.job import load_job
+        from ..facial_retarget_addon.bridge.job import load_job_steps
 
-        load_job(context, Path(self.filepath), self.up)
-        return {"FINISHED"}
+        return load_job_steps(context, Path(self.filepath), self.up)
+
+    def finish(self, result: None) -> None:
+        """Name it."""
+        self.report({"INFO"}, f"Loaded {Path(self.filepath).name}")
 
 
-class FACIAL_RETARGET_OT_save_job(OnTask, Operator, ExportHelper):
-    """Save the task as a job file, with the faces, frames and points that it needs beside it"""
+class FACIAL_RETARGET_OT_save_job(OnTask, FromBrowser, ExportHelper, InSteps, Operator):
+    """Save the task as a job file, with the faces, frames and points that it needs beside it; Esc stops"""
 
     bl_idname = "facial_retarget.save_job"
     bl_label = "Save Job"
+    doing = "Saving the job"
 
     filename_ext = ".toml"
     filter_glob: StringProperty(default="*.toml", options={"HIDDEN"})
 
-    @tells_user
-    def execute(self, context: Context) -> set[str]:
-        """Write the files, the job itself last."""
-        from ..facial_retarget_addon.bridge.background import finished
+    def steps(self, context: Context) -> Any:
+        """Read frame after frame, then write the files, the job itself last."""
         from ..facial_retarget_addon.bridge.job import save_job_steps
 
-        finished(save_job_steps(context, Path(self.filepath)))
+        return save_job_steps(context, Path(self.filepath))
+
+    def finish(self, result: None) -> None:
+        """Name it."""
         self.report({"INFO"}, f"Saved {self.filepath}")
-        return {"FINISHED"}
 
 
 class FACIAL_RETARGET_OT_save_clone_job(OnCloning, Operator, ExportHelper):

@@ -9,6 +9,7 @@ from pathlib import Path
 import bpy
 from bpy.types import Context, Object
 
+from ..core.arrays import Progress
 from ..core.errors import RetargetError
 from ..core.gains import Mask
 from ..core.problem import Face, Problem
@@ -18,9 +19,9 @@ from ..files.job import ExampleFiles, Job, MaskFile, OutputFiles, read_job, writ
 from ..files.masks import write_mask
 from ..files.mesh_file import MeshFile
 from ..files.meshes import write_mesh
-from ..files.run import read_inputs
+from ..files.run import Inputs, read_inputs
 from ..files.whole import written_whole
-from .background import Steps, part
+from .background import Steps, in_thread, part
 from .bake import write_frames
 from .base_object import show_triangles
 from .beside import Beside
@@ -44,26 +45,33 @@ def save_job_steps(context: Context, path: Path) -> Steps[None]:
     task = context.scene.facial_retarget
     problem, settings, heads = read_problem(context), read_task_settings(task), read_heads(context)
     frames = yield from part(read_frames(context, task.source, frame_range(context)), 0.0, 0.8)
-    yield 0.8, "Writing"
-    with written_whole() as aside:
-        files = _ExampleFiles(path, aside)
-        source, target = (files.head(role, head) for role, head in zip(("source", "target"), heads, strict=True))
-        base = None if problem.base is None else files.add("base.json", write_base_mesh, problem.base)
-        job = Job(
-            task.method,
-            replace(source, frames=files.add("source_frames.npz", write_frames_file, frames)),
-            target,
-            tuple(files.example(problem, name) for name in problem.source.examples),
-            settings,
-            OutputFiles(
-                _chosen(task.output) or files.path("target_frames.npz"), _chosen(task.report), _chosen(task.page)
-            ),
-            base,
-            path,
-            problem.gains.regions,
-            tuple(files.mask(name, number, mask) for number, (name, mask) in enumerate(problem.gains.masks.items(), 1)),
-        )
-        write_job(job, aside.place(path))
+    method, wanted = task.method, [_chosen(file) for file in (task.output, task.report, task.page)]
+
+    def write(progress: Progress) -> None:
+        progress(0.0, "Writing")
+        with written_whole() as aside:
+            files = _ExampleFiles(path, aside)
+            source, target = (files.head(role, head) for role, head in zip(("source", "target"), heads, strict=True))
+            base = None if problem.base is None else files.add("base.json", write_base_mesh, problem.base)
+            job = Job(
+                method,
+                replace(source, frames=files.add("source_frames.npz", write_frames_file, frames)),
+                target,
+                tuple(files.example(problem, name) for name in problem.source.examples),
+                settings,
+                OutputFiles(wanted[0] or files.path("target_frames.npz"), *wanted[1:]),
+                base,
+                path,
+                problem.gains.regions,
+                tuple(
+                    files.mask(name, number, mask) for number, (name, mask) in enumerate(problem.gains.masks.items(), 1)
+                ),
+            )
+            write_job(job, aside.place(path))
+            # The last moment to stop: after it the files appear.
+            progress(1.0, "Writing")
+
+    yield from part(in_thread(write), 0.8, 0.2)
 
 
 class _ExampleFiles(Beside):
@@ -92,7 +100,7 @@ def _chosen(path: str) -> Path | None:
     return Path(bpy.path.abspath(path)) if path else None
 
 
-def load_job(context: Context, path: Path, up: str) -> None:
+def load_job_steps(context: Context, path: Path, up: str) -> Steps[None]:
     """Make a job the scene's task: its faces become new objects, source frames and examples their shape keys.
 
     Parameters
@@ -103,8 +111,14 @@ def load_job(context: Context, path: Path, up: str) -> None:
     ------
     RetargetError : for a job or file that is bad; everything is read before anything is made.
     """
-    job = read_job(path)
-    inputs = read_inputs(job)
+
+    def read(progress: Progress) -> tuple[Job, Inputs]:
+        progress(0.0, "Reading")
+        job = read_job(path)
+        return job, read_inputs(job)
+
+    job, inputs = yield from part(in_thread(read), 0.0, 0.8)
+    yield 0.8, "Writing"
     problem = inputs.problem
     for face in (problem.source, problem.target):
         _check_examples(face)
