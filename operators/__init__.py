@@ -3,6 +3,7 @@
 import bpy
 
 from . import (
+    accept_hovered,
     add_actor,
     add_faces,
     add_point,
@@ -54,6 +55,7 @@ CLASSES = (
     refresh_points.FACIAL_RETARGET_OT_refresh_points,
     copy_points.FACIAL_RETARGET_OT_copy_points,
     place_point.FACIAL_RETARGET_OT_place_point,
+    accept_hovered.FACIAL_RETARGET_OT_accept_hovered,
     drop_point.FACIAL_RETARGET_OT_drop_point,
     skip_point.FACIAL_RETARGET_OT_skip_point,
     head_parts.FACIAL_RETARGET_OT_add_parts,

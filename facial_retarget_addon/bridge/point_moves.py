@@ -7,32 +7,12 @@ from collections.abc import Sequence
 import numpy as np
 from bpy.types import Depsgraph, Object
 
-from ..core.arrays import unit_vectors
-from ..core.closest_point import SurfaceFinder, closest_agreeing
 from ..core.errors import RetargetError
 from ..core.point_sets import POINT_INFOS
 from ..core.sliding import Place
-from .meshes import neutral_mesh
-from .point_prediction import update_predictions
-from .points import place_point, remove_point, skip_point
+from .point_prediction import accept_proposals, predictor_of, update_predictions
+from .points import place_point, place_points, read_points, remove_point, skip_point, want_point
 from .shown_surface import ShownSurface
-
-
-class PointMirror:
-    """Takes places of an object's neutral to its other half: mirrored in X, then onto the surface that faces alike."""
-
-    def __init__(self, thing: Object) -> None:
-        """Read the object; RetargetError if it is no surface."""
-        self._mesh = neutral_mesh(thing)
-        self._finder = SurfaceFinder(self._mesh)
-
-    def mirrored(self, place: Place) -> tuple[list[int], list[float]]:
-        """Vertices (3,) and weights (3,) of the place on the other half."""
-        across = np.array([-1.0, 1.0, 1.0])
-        position = across * (place.weights @ self._mesh.vertices[place.vertices])
-        normal = across * unit_vectors((place.weights @ self._mesh.vertex_normals[place.vertices])[None])
-        found = closest_agreeing(self._finder, position[None], normal, 0.0)
-        return self._mesh.faces[found.face[0]].tolist(), found.weights[0].tolist()
 
 
 def partner(name: str) -> str:
@@ -40,11 +20,16 @@ def partner(name: str) -> str:
     return POINT_INFOS[name].partner if name in POINT_INFOS else ""
 
 
-def put_point(thing: Object, name: str, place: Place, mirror: PointMirror | None) -> None:
-    """Place or move a point, and its partner if there is a mirror; the point becomes the active one."""
-    if mirror is not None and partner(name):
-        place_point(thing, partner(name), *mirror.mirrored(place))
+def put_point(thing: Object, name: str, place: Place, mirrored: bool) -> None:
+    """Place or move a point, and its partner if `mirrored`; the point becomes the active one.
+
+    Raises
+    ------
+    RetargetError : as for `place_points`.
+    """
     place_point(thing, name, place.vertices.tolist(), place.weights.tolist())
+    if mirrored and partner(name):
+        place_points(thing, predictor_of(thing).mirrored(read_points(thing), [name]))
 
 
 def put_point_near(
@@ -64,7 +49,7 @@ def put_point_near(
     if not wanted:
         raise RetargetError(f"all points of the set are placed on object {thing.name!r} or skipped, expected a name")
     place = ShownSurface(thing, depsgraph).closest(np.array(position, np.float64))
-    put_point(thing, wanted, place, PointMirror(thing) if mirrored else None)
+    put_point(thing, wanted, place, mirrored)
     update_predictions(thing)
     return wanted
 
@@ -91,5 +76,19 @@ def go_back(thing: Object) -> None:
     skipped = thing.facial_retarget.skipped
     if not len(skipped):
         raise RetargetError(f"no point of object {thing.name!r} is skipped, expected one to go back to")
-    skipped.remove(len(skipped) - 1)
+    want_point(thing, skipped[-1].name)
     update_predictions(thing)
+
+
+def accept_point(thing: Object, name: str) -> None:
+    """Place a proposed point where it is proposed; RetargetError if it is not.
+
+    Parameters
+    ----------
+    name : "" for the point whose turn it is.
+    """
+    face = thing.facial_retarget
+    wanted = name or face.turn
+    if wanted not in face.proposals:
+        raise RetargetError(f"feature point {wanted!r} of object {thing.name!r} is not proposed")
+    accept_proposals(thing, [wanted])

@@ -7,6 +7,7 @@ from zlib import crc32
 from bpy.types import Object
 
 from ..core.errors import RetargetError
+from ..core.mesh import TriMesh
 from ..core.placing.predictor import Predictor
 from ..core.point_sets import POINT_INFOS, POINT_SETS
 from ..core.points import FeaturePoints
@@ -18,7 +19,10 @@ from .topology import has_stale_points, topology_of
 KEPT = 4
 """Faces whose predictor is kept: source, target, and a pair that the artist worked on before."""
 
-_predictors: dict[int, tuple[tuple[object, ...], Predictor]] = {}
+Key = tuple[object, ...]
+"""What tells one neutral from another."""
+
+_predictors: dict[int, tuple[Key, Predictor]] = {}
 """Object -> the neutral that was read, and its predictor; the one used last stands last."""
 
 
@@ -29,15 +33,33 @@ def predictor_of(thing: Object) -> Predictor:
     ------
     RetargetError : if the object is no surface.
     """
-    positions = read_positions(thing.data)
-    key = (topology_of(thing.data), crc32(positions.tobytes()), stretch(thing).tobytes())
-    known = _predictors.pop(thing.session_uid, None)
-    if known is None or known[0] != key:
-        known = key, Predictor(neutral_mesh(thing), make_caster=available_caster())
-    _predictors[thing.session_uid] = known
+    predictor = kept_predictor(thing) or new_predictor(neutral_mesh(thing))
+    keep_predictor(thing.session_uid, key_of(thing), predictor)
+    return predictor
+
+
+def kept_predictor(thing: Object) -> Predictor | None:
+    """The predictor of an object's neutral as it is now, if there is one."""
+    key, predictor = _predictors.get(thing.session_uid, (None, None))
+    return predictor if key == key_of(thing) else None
+
+
+def new_predictor(mesh: TriMesh) -> Predictor:
+    """A predictor of a neutral."""
+    return Predictor(mesh, make_caster=available_caster())
+
+
+def keep_predictor(uid: int, key: Key, predictor: Predictor) -> None:
+    """Keep a predictor for the object of this session's number, and forget the one that was used longest ago."""
+    _predictors.pop(uid, None)
+    _predictors[uid] = key, predictor
     while len(_predictors) > KEPT:
         del _predictors[next(iter(_predictors))]
-    return known[1]
+
+
+def key_of(thing: Object) -> Key:
+    """What tells an object's neutral from another."""
+    return topology_of(thing.data), crc32(read_positions(thing.data).tobytes()), stretch(thing).tobytes()
 
 
 def wanted_names(thing: Object) -> list[str]:

@@ -60,10 +60,10 @@ def point_at(context: Context, mouse: tuple[float, float], clicked: bool = False
     return found
 
 
-def point_under(context: Context, mouse: FloatArray) -> tuple[Object | None, str]:
-    """The face and the name of the point that a click on a place (2,) of the region means; None and "" without one."""
+def point_under(context: Context, mouse: FloatArray, clicked: bool = True) -> tuple[Object | None, str]:
+    """The face and the name of the point at a place (2,) of the region, as for `point_at`; None and "" without one."""
     if points_are_shown(context):
-        found = point_at(context, (float(mouse[0]), float(mouse[1])), clicked=True)
+        found = point_at(context, (float(mouse[0]), float(mouse[1])), clicked)
         for thing in shown_faces(context):
             if thing.session_uid == found.thing:
                 return thing, face_marks(context, thing).names[found.row]

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from time import perf_counter
 from typing import Any
 
 import numpy as np
 from bpy.types import Context, Event
 
 from ..bridge.point_memory import put_back_points, remember_points
-from ..bridge.point_moves import PointMirror, put_point
-from ..bridge.point_prediction import update_predictions
+from ..bridge.point_moves import put_point
+from ..bridge.point_preparation import prepare_predictions, update_when_prepared
 from ..bridge.shown_surface import ShownSurface, view_of
 from ..core.arrays import FloatArray
 from ..core.errors import RetargetError
@@ -19,6 +20,9 @@ from .state import needed_face
 
 TREMBLE = 3.0
 """How far the mouse goes, in pixels, before a click becomes a drag."""
+
+QUICK = 0.03
+"""Seconds within which the partner is found if it follows on the way; a slower one comes when the mouse lets go."""
 
 
 class Pointed:
@@ -76,6 +80,7 @@ class PointDrag:
         self._at = Pointed(context, event)
         self._thing = self._at.thing
         self._slide: Slide | None = None
+        self._mirror_time = 0.0
         self._name = self._at.name or self._thing.facial_retarget.turn
         place = self._at.place()
         if place is None:
@@ -85,9 +90,10 @@ class PointDrag:
         self._place = place
         self.changed = self._name not in self._thing.facial_retarget.points
         self._grip = self._at.view.pixels(place.position[None])[0] - self._at.mouse
+        prepare_predictions(self._thing)
         self._memory = remember_points(self._thing)
-        self._mirror = PointMirror(self._thing) if context.scene.facial_retarget.mirror_points else None
-        self._put()
+        self._mirrored = context.scene.facial_retarget.mirror_points
+        self._put(self._mirrored)
 
     def move(self, event: Event) -> None:
         """Slide to the mouse, once it has gone farther than a hand trembles."""
@@ -98,21 +104,25 @@ class PointDrag:
             self._slide = Slide(self._at.view, self._at.seen, self._at.graph, self._place)
         self._place = self._slide.to(mouse + self._grip)
         self.changed = True
-        self._put()
+        self._put(self._mirrored and self._mirror_time < QUICK)
 
     def put_down(self) -> tuple[str, FloatArray]:
-        """Leave the point and predict the others; returns its name and its position (3,) in world space."""
+        """Leave the point where it is; returns its name and its position (3,) in world space."""
         if self.changed:
-            update_predictions(self._thing)
+            self._put(self._mirrored)
+            update_when_prepared(self._thing)
         return self._name, self._place.position
 
     def put_back(self) -> None:
         """Everything is as before the press."""
         put_back_points(self._thing, self._memory)
 
-    def _put(self) -> None:
+    def _put(self, mirrored: bool) -> None:
         if self.changed:
-            put_point(self._thing, self._name, self._place, self._mirror)
+            before = perf_counter()
+            put_point(self._thing, self._name, self._place, mirrored)
+            if mirrored:
+                self._mirror_time = perf_counter() - before
         else:
             face = self._thing.facial_retarget
             face.active_point = face.points.find(self._name)
@@ -125,6 +135,23 @@ def placed_point(context: Context, event: Event) -> str:
         raise RetargetError("no placed point is under the mouse")
     context.view_layer.objects.active = thing
     return name
+
+
+def proposed_point(context: Context, event: Event) -> str:
+    """The name of the proposed point under the mouse, or of that whose turn it is; its face becomes the active object.
+
+    Raises
+    ------
+    RetargetError : if neither is there.
+    """
+    thing, name = point_under(context, mouse_of(event), clicked=False)
+    if thing is not None and name in thing.facial_retarget.proposals:
+        context.view_layer.objects.active = thing
+        return name
+    face = needed_face(context).facial_retarget
+    if face.turn not in face.proposals:
+        raise RetargetError("no proposed point is under the mouse, and the one whose turn it is is not proposed")
+    return str(face.turn)
 
 
 def mouse_of(event: Event) -> FloatArray:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import bpy
-from bpy.types import Context, Header, UILayout, WorkSpaceTool
+from bpy.types import Context, Header, Object, UILayout, WorkSpaceTool
 
 from ..core.point_sets import POINT_INFOS, point_label
 from .state import TOOL, active_face, tool_is_active
@@ -33,6 +33,10 @@ class FACIAL_RETARGET_TOOL_points(WorkSpaceTool):
             {"type": "TAB", "value": "PRESS", "shift": True},
             {"properties": [("back", True)]},
         ),
+        ("facial_retarget.accept_hovered", {"type": "RET", "value": "PRESS"}, None),
+        ("facial_retarget.accept_hovered", {"type": "NUMPAD_ENTER", "value": "PRESS"}, None),
+        ("facial_retarget.accept_points", {"type": "RET", "value": "PRESS", "shift": True}, None),
+        ("facial_retarget.accept_points", {"type": "NUMPAD_ENTER", "value": "PRESS", "shift": True}, None),
         (
             "wm.context_toggle",
             {"type": "X", "value": "PRESS"},
@@ -46,10 +50,28 @@ class FACIAL_RETARGET_TOOL_points(WorkSpaceTool):
         if thing is None:
             layout.label(text="Select a face", icon="INFO")
             return
+        _prepare_soon(thing)
         face = thing.facial_retarget
         layout.prop(face, "point_set")
         layout.prop(context.scene.facial_retarget, "mirror_points", text="X", icon="MOD_MIRROR", toggle=True)
         layout.label(text=_whose_turn(face.turn), icon="DECORATE_KEYFRAME")
+
+
+def _prepare_soon(thing: Object) -> None:
+    """Once for each object: have its predictor made, a moment after the header is drawn."""
+    if thing.session_uid in _asked:
+        return
+    _asked.add(thing.session_uid)
+    name = thing.name
+
+    def prepare() -> None:
+        from ..bridge.point_preparation import prepare_predictions  # loads SciPy, which enabling does not
+
+        found = bpy.data.objects.get(name)
+        if found is not None and len(found.data.polygons):
+            prepare_predictions(found)
+
+    bpy.app.timers.register(prepare, first_interval=0.1)
 
 
 def _whose_turn(name: str) -> str:
@@ -59,6 +81,9 @@ def _whose_turn(name: str) -> str:
     return f"Next: {point_label(name)} – {meaning}" if meaning else f"Next: {point_label(name)}"
 
 
+_asked: set[int] = set()
+"""Objects whose predictor was asked for."""
+
 KEYS = (
     (("MOUSE_LMB",), "Place"),
     (("MOUSE_LMB_DRAG",), "Slide"),
@@ -66,6 +91,8 @@ KEYS = (
     (("EVENT_TAB",), "Skip"),
     (("EVENT_SHIFT", "EVENT_TAB"), "Go Back"),
     (("EVENT_X",), "Mirror"),
+    (("EVENT_RETURN",), "Accept"),
+    (("EVENT_SHIFT", "EVENT_RETURN"), "Accept All"),
 )
 """Icons of the keys, and what they do."""
 

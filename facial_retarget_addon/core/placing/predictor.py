@@ -73,6 +73,13 @@ class Predictor:
         self._outside = seen_from_outside(mesh, make_caster)
         self._skins: dict[tuple[int, ...], Skin] = {}
 
+    def prepare(self) -> None:
+        """Work out beforehand what the first prediction and the first mirroring on the largest piece would wait for."""
+        areas = np.bincount(self._mesh.components[self._mesh.faces[:, 0]], self._mesh.face_areas)
+        skin = self._skin(np.array([areas.argmax()]))
+        for _ in (skin.finder, skin.whole, skin.view, skin.exact_mirrors):
+            pass
+
     def predict(self, known: FeaturePoints, wanted: Sequence[str]) -> FeaturePoints:
         """Places of the wanted points.
 

@@ -56,23 +56,8 @@ assert stored.points.keys() == [first]
 with refused("'mole'", "no feature point"):
     operators.drop_point(name="mole")
 
-# With X Mirror a point's partner comes and goes with it; one on the middle line stays alone.
 face.matrix_world = Matrix.Identity(4)
 raised.value = 0.0
-stored.points.clear()
-bpy.context.view_layer.update()
-task.mirror_points = True
-operators.place_point(name="8.3", location=(0.3, -0.2, 2))
-assert set(stored.points.keys()) == {"8.3", "8.4"}
-assert stored.points[stored.active_point].name == "8.3"
-np.testing.assert_allclose(world(face)["8.4"], world(face)["8.3"] * [-1, 1, 1], atol=1e-5)
-operators.place_point(name="8.4", location=(-0.5, 0.1, 2))
-np.testing.assert_allclose(world(face)["8.4"], world(face)["8.3"] * [-1, 1, 1], atol=1e-5)
-operators.place_point(name="9.3", location=(0.1, 0, 2))
-assert set(stored.points.keys()) == {"8.3", "8.4", "9.3"}
-operators.drop_point(name="8.4")
-assert stored.points.keys() == ["9.3"]
-task.mirror_points = False
 
 # Added vertices do not matter, renumbered ones are refused with the reason.
 smooth = face.modifiers.new("smooth", "SUBSURF")
@@ -94,6 +79,31 @@ actor.facial_retarget.point_set = "MINIMAL"
 assert actor.facial_retarget.turn == ""
 with refused("all points of the set"):
     operators.place_point(location=(0, 0, 0))
+
+# With X Mirror a point's partner comes, follows and goes with it; one on the middle line stays alone.
+truth, stored = world(actor), actor.facial_retarget
+stored.points.clear()
+task.mirror_points = True
+for name, partner in (("8.3", "8.4"), ("8.4", "8.3"), ("3.7", "3.12")):
+    operators.place_point(name=name, location=truth[name])
+    assert stored.points[stored.active_point].name == name
+    np.testing.assert_allclose(world(actor)[partner], truth[partner], atol=0.02)
+operators.place_point(name="9.3", location=truth["9.3"])
+assert set(stored.points.keys()) == {"8.3", "8.4", "3.7", "3.12", "9.3"}
+assert len(stored.proposals) == 10, stored.proposals.keys()
+operators.drop_point(name="8.4")
+assert set(stored.points.keys()) == {"3.7", "3.12", "9.3"}
+assert {"8.3", "8.4"} <= set(stored.proposals.keys())
+task.mirror_points = False
+
+# Return accepts the proposal of the point whose turn it is.
+accepted = stored.turn
+operators.accept_hovered()
+assert accepted in stored.points
+assert accepted not in stored.proposals
+stored.proposals.clear()
+with refused(stored.turn, "not proposed"):
+    operators.accept_hovered()
 
 # Esc puts everything back, bit by bit.
 memory = part("bridge.point_memory")
