@@ -26,6 +26,8 @@ ARGUMENTS: list[str] = []
 Turns = Generator[None, None, Any]
 TURN = 0.01
 """Seconds between two turns, at least: a redraw takes longer."""
+ACROSS = (0.3, 0.6, 0.9)
+"""Where buttons are looked for, as shares of a region's width."""
 _mouse = [0, 0]
 
 
@@ -237,7 +239,7 @@ def open_tab(name: str = "Retarget", editor: bpy.types.Area | None = None) -> Tu
 
 
 def button_under_mouse(shown: bpy.types.Region, editor: bpy.types.Area) -> str:
-    """What the button under the mouse does: "facial_retarget.retarget()" or the path of its property; "" for none."""
+    """What the button under the mouse does: 'wm.call_menu(name="...")' or the path of its property; "" for none."""
     manager = bpy.data.window_managers[0]
     manager.clipboard = ""
     with bpy.context.temp_override(window=window(), area=editor, region=shown):
@@ -245,51 +247,53 @@ def button_under_mouse(shown: bpy.types.Region, editor: bpy.types.Area) -> str:
             if copy.poll():
                 copy()
                 if manager.clipboard:
-                    return manager.clipboard.removeprefix("bpy.ops.")
+                    return manager.clipboard.removeprefix("bpy.ops.").replace("'", '"')
     return ""
 
 
-def buttons(kind: str = "UI", editor: bpy.types.Area | None = None, across: Sequence[float] = (0.3, 0.8)) -> Turns:
-    """Every button that the mouse finds in a region from top to bottom, as [(what it does, x, y)]."""
+def buttons(
+    kind: str = "UI", editor: bpy.types.Area | None = None, across: Sequence[float] = ACROSS, wanted: str = ""
+) -> Turns:
+    """What the buttons of a region do -> (x, y), for all that the mouse finds; it stops at one that does `wanted`."""
     editor = editor or area()
     shown = region(kind, editor)
-    step = 0.5 * 20 * bpy.context.preferences.system.ui_scale
-    found: list[tuple[str, float, float]] = []
-    for row in range(1, int(shown.height / step)):
-        for share in across:
-            x, y = shown.x + share * (shown.width - 20), shown.y + shown.height - row * step
-            yield from move(x, y)
+    step = 14 * bpy.context.preferences.system.ui_scale  # a button is 20 high
+    found: dict[str, tuple[float, float]] = {}
+    yield from move(shown.x + 0.5 * shown.width, shown.y + shown.height - 2)
+    for share in across:
+        for row in range(1, int(shown.height / step)):
+            _mouse[:] = round(shown.x + share * (shown.width - 20)), round(shown.y + shown.height - row * step)
+            _simulate("MOUSEMOVE", "NOTHING")
+            yield
             what = button_under_mouse(shown, editor)
-            if what and what not in [other for other, *_ in found]:
-                found.append((what, x, y))
+            if what:
+                found.setdefault(what, (_mouse[0], _mouse[1]))
+                if wanted and wanted in what:
+                    return found
     return found
 
 
 def find_button(
-    what: str, kind: str = "UI", editor: bpy.types.Area | None = None, across: Sequence[float] = (0.3, 0.6, 0.9)
+    what: str, kind: str = "UI", editor: bpy.types.Area | None = None, across: Sequence[float] = ACROSS
 ) -> Turns:
-    """The place of the first button whose command or property path holds `what`; scrolls down if it must."""
-    editor = editor or area()
+    """The place of a button whose command or property path holds `what`; scrolls down if it must.
+
+    Parameters
+    ----------
+    across : where to look, as shares of the region's width.
+    """
     shown = region(kind, editor)
-    step = 0.5 * 20 * bpy.context.preferences.system.ui_scale
-    seen = set()
+    seen: set[str] = set()
     for _ in range(6):
-        before = len(seen)
-        for row in range(1, int(shown.height / step)):
-            for share in across:
-                x, y = shown.x + share * (shown.width - 20), shown.y + shown.height - row * step
-                yield from move(x, y)
-                command = button_under_mouse(shown, editor)
-                seen.add(command)
-                if command and what in command:
-                    yield from move(x, y - 0.5 * step)
-                    if what not in button_under_mouse(shown, editor):
-                        yield from move(x, y)
-                    return _mouse[0], _mouse[1]
-        if before == len(seen):
+        found = yield from buttons(kind, editor, across, what)
+        for command, place in found.items():
+            if what in command:
+                return place
+        if found.keys() <= seen:
             break
+        seen |= found.keys()
         yield from scroll(shown)
-    raise AssertionError(f"no button does {what}; there are {sorted(seen - {''})}")
+    raise AssertionError(f"no button does {what}; there are {sorted(seen)}")
 
 
 def press_button(what: str, kind: str = "UI", editor: bpy.types.Area | None = None) -> Turns:

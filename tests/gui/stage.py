@@ -1,6 +1,7 @@
 """What the scenarios play with: the installed extension's modules, and small built-in faces."""
 
 from importlib import import_module
+from pathlib import Path
 from types import ModuleType
 from typing import Any
 
@@ -14,6 +15,37 @@ NAME = "bl_ext.user_default.facial_retarget"
 def part(name: str) -> ModuleType:
     """A module of the installed extension, such as "bridge.bake"."""
     return import_module(f"{NAME}.facial_retarget_addon.{name}")
+
+
+FACES = ("actor", "ape", "skull", "child", "Suzanne")
+"""The built-in faces, and Blender's own."""
+
+
+def small_face(name: str) -> Any:
+    """A built-in face as `demo.DemoFace`, of some thousand vertices."""
+    demo, cast, layouts = part("demo"), part("demo.cast"), part("demo.layouts")
+    layout = layouts.ringed_layout(60, 66, 5)
+    if name == "ape":
+        return part("demo.face").build_face(name, cast.APE, layout, cast.FUR, cast.APE_MANNER)
+    if name == "skull":
+        return part("demo.face").build_face(name, cast.SKULL, layout, cast.BONE, cast.SKULL_MANNER)
+    return demo.child() if name == "child" else demo.actor(5_000)
+
+
+def add_suzanne() -> bpy.types.Object:
+    """Blender's monkey, finer, with the feature points of the samples; active and selected."""
+    bpy.ops.mesh.primitive_monkey_add()
+    made = bpy.context.view_layer.objects.active
+    with override():
+        made.modifiers.new("Finer", "SUBSURF").levels = 2
+        bpy.ops.object.modifier_apply(modifier="Finer")
+    made.data.shade_smooth()
+    file = Path(__file__).resolve().parents[2] / "docs" / "samples" / "suzanne_points.json"
+    points = part("files.points").read_points(file, part("bridge.meshes").neutral_mesh(made))
+    part("bridge.points").write_points(made, points)
+    choose(made)
+    remember()
+    return made
 
 
 def clear() -> None:
@@ -47,7 +79,7 @@ def remember() -> None:
 def choose(thing: bpy.types.Object) -> None:
     """Make an object the active and the only selected one."""
     for other in bpy.context.view_layer.objects:
-        other.select_set(other is thing)
+        other.select_set(other == thing)
     bpy.context.view_layer.objects.active = thing
     bpy.context.view_layer.update()
 
