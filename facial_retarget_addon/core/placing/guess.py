@@ -10,9 +10,9 @@ import numpy as np
 from ..points import FeaturePoints
 from ..raycast import CasterFactory
 from ..rigid import Similarity, fit_similarity
-from .face_fit import CLEAR, FaceFit, fit_face
+from .face_fit import AGREEMENT, CLEAR, FaceFit, fit_face
 from .front import Stand, find_stands
-from .openings import believed_landmarks
+from .openings import NEARBY, WIDE, believed_landmarks
 from .skin import Skin
 from .template import Template
 
@@ -24,8 +24,8 @@ SAME_TURN, SAME_SIZE = np.cos(np.radians(9.0)), 1.1
 """Stands that differ by less are one: the cosine of a turn, and a ratio of sizes."""
 ROUNDS = 4
 """Of laying the average face on the surface without bending it."""
-LOOKS = 4
-"""How often landmarks are looked for; bending to them shows more."""
+LOOKS = (WIDE, WIDE, WIDE, NEARBY)
+"""Where landmarks are looked for, time after time; bending to them shows more."""
 NEAR = 0.25
 """Places of the surface count for that if they are nearer than this, in eye separations."""
 FAR = 0.1
@@ -83,15 +83,15 @@ def _same(first: Similarity, second: Similarity) -> bool:
 def _settled(template: Template, pose: Similarity, skin: Skin) -> FoundFace:
     """The average face laid on the surface from a stand nearby, then bent to it and to the landmarks seen."""
     for _ in range(ROUNDS):
-        there = skin.closest(pose.apply(template.places), template.normals @ pose.rotation.T, pose.scale)
+        there = skin.samples.beside(pose.apply(template.places), template.normals @ pose.rotation.T, AGREEMENT)
         met = there.distance < NEAR * pose.scale
         if met.sum() < 0.5 * len(met):
             break
-        pose = fit_similarity(template.places[met], there.point[met])
+        pose = fit_similarity(template.places[met], there.place[met])
     landmarks, groups = FeaturePoints.none(), 0
     fit = _bent(template, pose, landmarks, skin)
-    for _ in range(LOOKS):
-        seen = believed_landmarks(skin.view, fit)
+    for search in LOOKS:
+        seen = believed_landmarks(skin.view, fit, search)
         landmarks, groups = _all(seen), len(seen)
         pose = fit_similarity(template.places, _bent(template, pose, landmarks, skin).places)
         fit = _bent(template, pose, landmarks, skin)
@@ -114,7 +114,7 @@ def _all(groups: Sequence[FeaturePoints]) -> FeaturePoints:
 
 def unlikeness(fit: FaceFit, skin: Skin) -> float:
     """How unlike the surface a fitted face is: by distances, by normals, and by how far it had to be bent."""
-    there = skin.closest(fit.places, fit.normals, fit.pose.scale)
+    there = skin.samples.beside(fit.places, fit.normals, AGREEMENT)
     away = np.minimum(there.distance / (FAR * fit.pose.scale), 1.0)
-    turned = 0.5 * (1 - np.einsum("ni,ni->n", skin.finder.normals(there.face), fit.normals))
+    turned = 0.5 * (1 - np.einsum("ni,ni->n", there.normal, fit.normals))
     return float(np.mean(0.5 * away + 0.5 * turned)) + BENT * fit.bending

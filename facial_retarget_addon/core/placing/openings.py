@@ -22,21 +22,35 @@ EYES = (
 LID_PLACES = ((0.5, True), (0.5, False), (0.2, True), (0.8, True), (0.2, False), (0.8, False))
 """Of the lids' points: share of the way from the inner corner to the outer one, and whether it is the upper lid."""
 EYE_COLUMNS, EYE_ROWS = 61, 81
-EYE_HALF = (0.42, 0.30)
-"""Half of the window that an eye is looked for in, in eye separations."""
 EYE_WIDTHS, EYE_HEIGHT = (0.18, 0.70), 0.03
 """Widths that the opening of an eye may have, and its least height."""
 DEEP = 0.15
 """What lies this far behind the lids lies inside the eye."""
 LIPS = (("2.2", "2.3"), ("2.6", "2.8"), ("2.7", "2.9"))
 """Points of the upper and of the lower lip's inner edge that face one another."""
-LIP_ROWS, LIP_HALF = 97, 0.13
+LIP_ROWS = 97
 LIP_TURN = 0.25
 """Least turn of the normal, up or down, from one lip to the other, across so many rows: the sine of some 15 degrees."""
 LIP_STEP = 4
-BELIEVED = 0.25
-"""Landmarks farther than this from where the average face expects them are something else."""
 _BEFORE = 1.0
+
+
+class Search(NamedTuple):
+    """Where landmarks are looked for, in eye separations about where the average face expects them.
+
+    eye : half the width and half the height of an eye's window. lips : half the height of the lips'.
+    believed : landmarks farther away are something else.
+    """
+
+    eye: tuple[float, float]
+    lips: float
+    believed: float
+
+
+NEARBY = Search((0.42, 0.30), 0.13, 0.25)
+"""For a face that is fitted to some points."""
+WIDE = Search((0.55, 0.45), 0.25, 0.4)
+"""For one that is only guessed."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,35 +105,42 @@ class Seen(NamedTuple):
     normals: FloatArray
 
 
-def find_landmarks(view: FrontView, fit: FaceFit) -> list[FeaturePoints]:
+def find_landmarks(view: FrontView, fit: FaceFit, search: Search) -> list[FeaturePoints]:
     """The margins of each eye that is open, and the line between the lips, as groups of points; what is not clearly
     there is left out.
     """
     where = dict(zip(fit.template.names, fit.template.places + fit.differences, strict=True))
-    groups = [_eye(view, fit, np.array([where[name] for name in names]), names) for names in EYES]
-    groups += [_lips(view, fit, 0.5 * (where[upper] + where[lower]), (upper, lower)) for upper, lower in LIPS]
+    groups = [_eye(view, fit, np.array([where[name] for name in names]), names, search.eye) for names in EYES]
+    groups += [
+        _lips(view, fit, 0.5 * (where[upper] + where[lower]), (upper, lower), search.lips) for upper, lower in LIPS
+    ]
     return [group for group in groups if group is not None]
 
 
-def believed_landmarks(view: FrontView, fit: FaceFit) -> list[FeaturePoints]:
+def believed_landmarks(view: FrontView, fit: FaceFit, search: Search = NEARBY) -> list[FeaturePoints]:
     """Those of the landmarks that lie about where the average face expects them."""
     expected = dict(zip(fit.template.names, fit.places, strict=True))
-    groups = find_landmarks(view, fit)
+    groups = find_landmarks(view, fit, search)
     return [
         group
         for group in groups
         if all(
-            np.linalg.norm(place - expected[name]) <= BELIEVED * fit.pose.scale
+            np.linalg.norm(place - expected[name]) <= search.believed * fit.pose.scale
             for name, place in zip(group.names, group.positions(view.mesh.vertices), strict=True)
         )
     ]
 
 
-def _eye(view: FrontView, fit: FaceFit, expected: FloatArray, names: tuple[str, ...]) -> FeaturePoints | None:
-    """Margins of an eye: the border of what is not skin around its middle. expected : (8, 3) in the template's axes."""
+def _eye(
+    view: FrontView, fit: FaceFit, expected: FloatArray, names: tuple[str, ...], half: tuple[float, float]
+) -> FeaturePoints | None:
+    """Margins of an eye: the border of what is not skin around its middle.
+
+    expected : (8, 3) in the template's axes. half : of the window that it is looked for in.
+    """
     middle = expected[:4].mean(axis=0)
-    x = middle[0] + np.linspace(-EYE_HALF[0], EYE_HALF[0], EYE_COLUMNS)
-    y = middle[1] + np.linspace(EYE_HALF[1], -EYE_HALF[1], EYE_ROWS)
+    x = middle[0] + np.linspace(-half[0], half[0], EYE_COLUMNS)
+    y = middle[1] + np.linspace(half[1], -half[1], EYE_ROWS)
     columns, rows = np.meshgrid(x, y)
     seen = view.look(fit, columns.ravel(), rows.ravel(), float(middle[2]))
     opening = _opening(~seen.skin.reshape(columns.shape))
@@ -158,12 +179,14 @@ def _opening(hollow: BoolArray) -> BoolArray | None:
     return chosen
 
 
-def _lips(view: FrontView, fit: FaceFit, middle: FloatArray, names: tuple[str, str]) -> FeaturePoints | None:
+def _lips(
+    view: FrontView, fit: FaceFit, middle: FloatArray, names: tuple[str, str], reach: float
+) -> FeaturePoints | None:
     """Edges of both lips on a line up and down: where the surface turns from looking down to looking up.
 
-    middle : (3,) between the points, in the template's axes.
+    middle : (3,) between the points, in the template's axes. reach : how far above and below it.
     """
-    y = middle[1] + np.linspace(LIP_HALF, -LIP_HALF, LIP_ROWS)
+    y = middle[1] + np.linspace(reach, -reach, LIP_ROWS)
     seen = view.look(fit, np.full(LIP_ROWS, middle[0]), y, float(middle[2]))
     hollow = np.flatnonzero(~seen.skin)
     if len(hollow):
@@ -171,7 +194,7 @@ def _lips(view: FrontView, fit: FaceFit, middle: FloatArray, names: tuple[str, s
     else:
         turn = seen.normals[LIP_STEP:, 1] - seen.normals[:-LIP_STEP, 1]
         half = LIP_STEP // 2
-        near = 1 - 0.5 * np.abs(y[half:-half] - middle[1]) / LIP_HALF
+        near = 1 - 0.5 * np.abs(y[half:-half] - middle[1]) / reach
         best = int((turn * near).argmax())
         if turn[best] < LIP_TURN:
             return None

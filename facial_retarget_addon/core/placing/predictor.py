@@ -31,7 +31,7 @@ SIZE = 0.25
 """An eye separation, as a share of the mesh's size, where too few points tell it."""
 LEAST = 3
 """Known points from which others can be predicted without looking for the face."""
-NO_FACE = 0.38
+NO_FACE = 0.35
 """A surface that is this unlike the average face is none."""
 MOST_SKINS, LEAST_SKIN = 3, 0.1
 """Components on which a face is looked for: how many of the largest, and the least share of the mesh's area."""

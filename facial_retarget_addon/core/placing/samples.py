@@ -31,12 +31,21 @@ class Ahead(NamedTuple):
     met: BoolArray
 
 
+class Beside(NamedTuple):
+    """The sample next to each place: its place (N, 3), its normal (N, 3), and how far its tangent plane is (N,)."""
+
+    place: FloatArray
+    normal: FloatArray
+    distance: FloatArray
+
+
 class SurfaceSamples:
     """Samples of a surface, and the tangent planes in them."""
 
     def __init__(self, mesh: TriMesh, count: int) -> None:
         self._places, self._normals = surface_samples(mesh, count)
         self._tree = cKDTree(self._places)
+        self._spacing = 2 * float(np.sqrt(mesh.area / count))
 
     def ahead(self, places: FloatArray, normals: FloatArray, agreement: float, reach: float) -> Ahead:
         """How far the surface lies from places (N, 3) along unit normals (N, 3).
@@ -58,3 +67,14 @@ class SurfaceSamples:
         sample, cosine = found[rows, first], np.maximum(facing[rows, first], agreement)
         offset = np.einsum("nc,nc->n", self._places[sample] - places, self._normals[sample]) / cosine
         return Ahead(np.where(met, offset, 0.0), np.where(met, distance[rows, first], np.inf), met)
+
+    def beside(self, places: FloatArray, normals: FloatArray, agreement: float) -> Beside:
+        """The nearest sample whose normal agrees with a place's (N, 3); the nearest of all where none nearby does."""
+        near = self._tree.query(places, k=NEIGHBOURS)[1]
+        facing = np.einsum("nkc,nc->nk", self._normals[near], normals)
+        sample = near[np.arange(len(places)), (facing >= agreement).argmax(axis=1)]
+        gap = places - self._places[sample]
+        away = np.abs(np.einsum("nc,nc->n", gap, self._normals[sample]))
+        # Beside the border of the surface its tangent planes go on, but it does not.
+        distance = np.maximum(away, np.linalg.norm(gap, axis=1) - self._spacing)
+        return Beside(self._places[sample], self._normals[sample], distance)
