@@ -132,8 +132,12 @@ class TestGuess:
         around = rng.normal(size=(2000, 3))
         around /= np.linalg.norm(around, axis=1, keepdims=True)
         ball = TriMesh(around * [1.0, 1.3, 0.9], outwards(around))
-        with pytest.raises(RetargetError, match="no face was found"):
-            guess_points(ball, ["9.3"])
+        predictor = Predictor(ball)
+        for known in (FeaturePoints.none(), FeaturePoints(("9.3",), ball.faces[:1], np.full((1, 3), 1 / 3))):
+            with pytest.raises(RetargetError, match="no face was found"):
+                predictor.predict(known, ["8.3"])
+        with pytest.raises(RetargetError, match="place at least 3 points by hand"):
+            predictor.guess(["9.3"])
 
 
 def outwards(around: np.ndarray) -> np.ndarray:

@@ -77,7 +77,7 @@ class Predictor:
         """Work out beforehand what the first prediction and the first mirroring on the largest piece would wait for."""
         areas = np.bincount(self._mesh.components[self._mesh.faces[:, 0]], self._mesh.face_areas)
         skin = self._skin(np.array([areas.argmax()]))
-        for _ in (skin.finder, skin.whole, skin.view, skin.exact_mirrors):
+        for _ in (skin.finder, skin.whole, skin.view, skin.samples, skin.exact_mirrors, self._best_face):
             pass
 
     def predict(self, known: FeaturePoints, wanted: Sequence[str]) -> FeaturePoints:
@@ -215,21 +215,26 @@ class Predictor:
                 found = found.joined(group.subset([name for name in group.names if name not in placed]))
         return found
 
-    @cached_property
+    @property
     def _face(self) -> tuple[FoundFace, Skin]:
         """The face found from nothing, and the skin that it lies on."""
+        face, skin = self._best_face
+        if face.unlike >= NO_FACE:
+            raise RetargetError(
+                f"no face was found on the mesh: the average face differs from it by {face.unlike:.2f}, expected "
+                f"less than {NO_FACE}; place at least {LEAST} points by hand"
+            )
+        return face, skin
+
+    @cached_property
+    def _best_face(self) -> tuple[FoundFace, Skin]:
+        """What is most like a face, however little."""
         mesh = self._mesh
         areas = np.bincount(mesh.components, mesh.vertex_areas)
         large = np.argsort(-areas, kind="stable")[:MOST_SKINS]
         skins = [self._skin(np.array([one])) for one in large if areas[one] >= LEAST_SKIN * areas.sum()]
         found = [(find_face(self._template, skin, self._make_caster), skin) for skin in skins]
-        best = min(found, key=lambda pair: pair[0].unlike)
-        if best[0].unlike >= NO_FACE:
-            raise RetargetError(
-                f"no face was found on the mesh: the average face differs from it by {best[0].unlike:.2f}, expected "
-                f"less than {NO_FACE}; place at least {LEAST} points by hand"
-            )
-        return best
+        return min(found, key=lambda pair: pair[0].unlike)
 
     def _skin(self, components: IntArray) -> Skin:
         """Of some components of the mesh."""
