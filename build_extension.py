@@ -18,6 +18,8 @@ import tomllib
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from build_manual import write_manual
+
 ROOT = Path(__file__).resolve().parent
 SHIPPED = ("blender_manifest.toml", "LICENSE", "__init__.py", "facial_retarget_addon", "operators", "panels")
 LEFT_OUT = ("__pycache__", "cli.py", "demonstration.py", "terminal.py")
@@ -109,6 +111,7 @@ def lay_out(stage: Path, wheels: list[Path]) -> None:
             shutil.copytree(ROOT / name, stage / name, ignore=shutil.ignore_patterns(*LEFT_OUT))
         else:
             shutil.copy2(ROOT / name, stage / name)
+    write_manual(ROOT / "docs", stage / "manual")
     (stage / "wheels").mkdir()
     for wheel in wheels:
         shutil.copy2(wheel, stage / "wheels" / wheel.name)

@@ -22,6 +22,7 @@ from . import (
     masks,
     motion,
     normal_maps,
+    open_manual,
     place_point,
     points_files,
     predicted_points,
@@ -93,6 +94,7 @@ CLASSES = (
     motion.FACIAL_RETARGET_OT_import_motion,
     motion.FACIAL_RETARGET_OT_export_motion,
     stop.FACIAL_RETARGET_OT_stop,
+    open_manual.FACIAL_RETARGET_OT_open_manual,
 )
 
 register, unregister = bpy.utils.register_classes_factory(CLASSES)

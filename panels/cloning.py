@@ -2,7 +2,8 @@
 
 from bpy.types import Context, Panel, PropertyGroup, UILayout, UIList
 
-from .tab import RetargetTab
+from ..facial_retarget_addon.manual import CLONING
+from .tab import RetargetTab, WithManual
 
 
 class FACIAL_RETARGET_UL_cloned(UIList):
@@ -18,10 +19,11 @@ class FACIAL_RETARGET_UL_cloned(UIList):
         row.prop(item, "corrected", text="")
 
 
-class FACIAL_RETARGET_PT_cloning(RetargetTab, Panel):
+class FACIAL_RETARGET_PT_cloning(WithManual, Panel):
     """What to clone, onto what, and the button."""
 
     bl_label = "Clone Shape Keys"
+    page = CLONING
     bl_parent_id = "FACIAL_RETARGET_PT_more"
     bl_options = {"DEFAULT_CLOSED"}
 

@@ -2,13 +2,15 @@
 
 from bpy.types import Context, Panel
 
-from .tab import RetargetTab
+from ..facial_retarget_addon.manual import MPEG4
+from .tab import WithManual
 
 
-class FACIAL_RETARGET_PT_motion(RetargetTab, Panel):
+class FACIAL_RETARGET_PT_motion(WithManual, Panel):
     """Shapes, and motion in and out."""
 
     bl_label = "MPEG-4 Face"
+    page = MPEG4
     bl_parent_id = "FACIAL_RETARGET_PT_more"
     bl_options = {"DEFAULT_CLOSED"}
 

@@ -5,6 +5,7 @@ from bpy.app.translations import pgettext_iface
 from bpy.types import Context, UILayout
 
 from ..facial_retarget_addon import guide
+from ..facial_retarget_addon.manual import STEPS
 
 ICONS = {"DONE": "CHECKMARK", "NOW": "RADIOBUT_ON", "OPEN": "RADIOBUT_OFF"}
 """How far a step is -> the icon in its header."""
@@ -26,10 +27,25 @@ class RetargetTab:
         return not context.window_manager.facial_retarget.running
 
 
-class Step(RetargetTab):
+class WithManual(RetargetTab):
+    """A panel whose header has a button that opens a page of the manual."""
+
+    page = ""
+
+    def draw_header_preset(self, context: Context) -> None:
+        """Draw the button at the end of the header."""
+        self.layout.operator("facial_retarget.open_manual", text="", icon="HELP", emboss=False).page = self.page
+
+
+class Step(WithManual):
     """A panel that is one of `guide.STEPS`: its header shows how far the step is."""
 
     step = ""
+
+    @property
+    def page(self) -> str:
+        """The step's page."""
+        return STEPS[self.step]
 
     def draw_header(self, context: Context) -> None:
         """Draw the icon before the title."""

@@ -29,6 +29,7 @@ def test_nothing_but_the_extension(shipped: list[str]) -> None:
         "__init__.py",
         "blender_manifest.toml",
         "facial_retarget_addon",
+        "manual",
         "operators",
         "panels",
         "wheels",

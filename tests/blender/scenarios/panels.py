@@ -56,8 +56,8 @@ LISTS = {
 def draw_all() -> None:
     """Draw all panels and all lists."""
     for panel in panels:
-        shown = SimpleNamespace(layout=Recorder(), step=getattr(panel, "step", ""))
-        for draw in ("draw_header", "draw"):
+        shown = SimpleNamespace(layout=Recorder(), step=getattr(panel, "step", ""), page="")
+        for draw in ("draw_header", "draw_header_preset", "draw"):
             if draw in dir(panel):
                 getattr(panel, draw)(shown, InSidebar())
     face = bpy.data.objects["target"].facial_retarget
