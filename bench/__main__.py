@@ -18,6 +18,7 @@ SECTIONS = (
     "placing",
     "blender_write",
     "preview",
+    "points",
 )
 
 
