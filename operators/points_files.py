@@ -37,7 +37,7 @@ class FACIAL_RETARGET_OT_load_points(OnFace, Operator, ImportHelper):
 
 
 class FACIAL_RETARGET_OT_save_points(OnPoints, Operator, ExportHelper):
-    """Save the feature points of the active face to a file"""
+    """Save the feature points of the active face to a file; what is only proposed is left out"""
 
     bl_idname = "facial_retarget.save_points"
     bl_label = "Save Feature Points"
@@ -52,7 +52,8 @@ class FACIAL_RETARGET_OT_save_points(OnPoints, Operator, ExportHelper):
         from ..facial_retarget_addon.bridge.points import read_points
         from ..facial_retarget_addon.files.points import write_points
 
-        points = read_points(context.active_object)
-        write_points(points, Path(self.filepath))
+        thing = context.active_object
+        points = read_points(thing)
+        write_points(points, Path(self.filepath), len(thing.data.vertices))
         self.report({"INFO"}, f"{len(points)} feature points saved")
         return {"FINISHED"}

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from ..core.parts.kinds import NamedParts
+from ..core.points import FeaturePoints
 from ..files.job import FaceFiles
 from ..files.meshes import write_mesh
 from ..files.parts import write_parts
@@ -43,9 +44,12 @@ class Beside:
         def parts(named: NamedParts, place: Path) -> None:
             write_parts(named, head.face.mesh, place)
 
+        def points(placed: FeaturePoints, place: Path) -> None:
+            write_points(placed, place, len(head.face.mesh.vertices))
+
         named = head.face.named_parts
         return FaceFiles(
             self.add(f"{role}.obj", write_mesh, head.file),
-            self.add(f"{role}_points.json", write_points, head.face.points),
+            self.add(f"{role}_points.json", points, head.face.points),
             parts=self.add(f"{role}_parts.json", parts, named) if named else None,
         )

@@ -33,13 +33,17 @@ def read_points(path: Path, mesh: TriMesh) -> FeaturePoints:
     ------
     RetargetError : if the file cannot be read or is no such document, if a name appears twice, or if a place
         is not one of the three kinds, has vertices that the mesh does not have, numbers that are not finite,
-        weights that are negative or do not add up to 1, or a position far away; names all faults.
+        weights that are negative or do not add up to 1, or a position far away, or if the file names another number of
+        vertices than the mesh has; names all faults.
     """
     wrong: list[str] = []
     root = Table(read_json(path), "", wrong)
     root.expect("format", FORMAT)
     root.expect("version", VERSION)
     points = root.get("points", dict)
+    count = root.optional("mesh_vertices", int)
+    if count not in (None, len(mesh.vertices)):
+        wrong.append(f"its points lie on a mesh of {count} vertices, and the one that arrived has {len(mesh.vertices)}")
     root.no_more()
     names = [str(name) for name in points]
     vertices = np.zeros((len(names), 3), np.int64)
@@ -69,23 +73,19 @@ def read_points(path: Path, mesh: TriMesh) -> FeaturePoints:
     return FeaturePoints(tuple(names), vertices, weights)
 
 
-def write_points(points: FeaturePoints, path: Path) -> None:
-    """Write feature points, whole or not at all; RetargetError if the system refuses."""
-    write_whole(
-        path,
-        json_bytes(
-            {
-                "format": FORMAT,
-                "version": VERSION,
-                "points": {
-                    name: _place(vertices, weights)
-                    for name, vertices, weights in zip(
-                        points.names, points.vertices.tolist(), points.weights.tolist(), strict=True
-                    )
-                },
-            }
-        ),
-    )
+def write_points(points: FeaturePoints, path: Path, mesh_vertices: int | None = None) -> None:
+    """Write feature points, whole or not at all; RetargetError if the system refuses.
+
+    Parameters
+    ----------
+    mesh_vertices : vertices of the mesh, so that no other mesh takes them; None to leave that open.
+    """
+    places = {
+        name: _place(vertices, weights)
+        for name, vertices, weights in zip(points.names, points.vertices.tolist(), points.weights.tolist(), strict=True)
+    }
+    count = {} if mesh_vertices is None else {"mesh_vertices": mesh_vertices}
+    write_whole(path, json_bytes({"format": FORMAT, "version": VERSION, **count, "points": places}))
 
 
 def _place(vertices: list[int], weights: list[float]) -> dict[str, Any]:

@@ -48,6 +48,15 @@ def test_a_point_on_a_vertex_is_written_as_one(tmp_path):
     np.testing.assert_array_equal(again.positions(MESH.vertices), points.positions(MESH.vertices))
 
 
+def test_points_of_another_mesh_are_refused(tmp_path):
+    points = FeaturePoints(("a",), np.array([[3, 4, 5]]), np.array([[0.0, 1.0, 0.0]]))
+    path = tmp_path / "points.json"
+    write_points(points, path, len(MESH.vertices))
+    assert read_points(path, MESH).vertices.tolist() == [[4, 4, 4]]
+    with pytest.raises(RetargetError, match=r"points.json: its points lie on a mesh of 49 vertices, .* has 64"):
+        read_points(path, dome(8).mesh)
+
+
 def test_a_position_is_snapped_to_the_surface(place):
     above = MESH.vertices[MESH.faces[20]].mean(axis=0)
     points = place(json.dumps({"position": (above + 0.05 * MESH.face_normals[20]).tolist()}))

@@ -31,6 +31,7 @@ bpy.ops.facial_retarget.save_points(filepath=str(folder / "out.json"))
 saved = json.loads((folder / "out.json").read_text())["points"]
 assert saved["2.1"] == document["points"]["2.1"], saved
 assert saved['a "name"'] == {"vertex": 35}, saved
+assert json.loads((folder / "out.json").read_text())["mesh_vertices"] == 36
 assert list(saved) == ["2.1", 'a "name"', "9.3"], saved
 np.testing.assert_allclose(points.point_positions(face)[2, :2], [0.1, 0.2], atol=0.02)
 
@@ -77,6 +78,11 @@ document["points"]["2.1"]["vertices"] = [0, 1, 36]
 (folder / "bad.json").write_text(json.dumps(document))
 with refused("bad.json", "'2.1'", "35"):
     bpy.ops.facial_retarget.load_points(filepath=str(folder / "bad.json"))
+other = grid("other", 7)
+bpy.context.view_layer.objects.active = other
+with refused("out.json", "36 vertices", "49"):
+    bpy.ops.facial_retarget.load_points(filepath=str(folder / "out.json"))
+bpy.context.view_layer.objects.active = face
 face.facial_retarget.points[0].name = "chin"
 with refused("'chin'", "twice"):
     bpy.ops.facial_retarget.save_points(filepath=str(folder / "twice.json"))
