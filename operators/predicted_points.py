@@ -1,10 +1,68 @@
-"""Feature points that are predicted: accepted, cleared away, or wanted again."""
+"""Feature points that are predicted: guessed, accepted, mirrored, cleared away, or wanted again."""
 
-from bpy.props import StringProperty
+from typing import Any
+
+from bpy.props import EnumProperty, StringProperty
 from bpy.types import Context, Operator
 
 from .errors import tells_user
-from .polls import OnFace, OnProposals
+from .in_steps import InSteps
+from .polls import OnFace, OnPoints, OnProposals
+
+SURE = 0.4
+"""A face that is found with less confidence than this may be none."""
+
+
+class FACIAL_RETARGET_OT_guess_points(OnFace, InSteps, Operator):
+    """Propose all missing feature points: by those that are placed, or by the shape of the head alone; Esc stops"""
+
+    bl_idname = "facial_retarget.guess_points"
+    bl_label = "Guess Points"
+    bl_options = {"REGISTER", "UNDO"}
+    doing = "Guessing"
+
+    def steps(self, context: Context) -> Any:
+        """Look for the face, then propose."""
+        from ..facial_retarget_addon.bridge.point_prediction import guess_steps
+
+        self._thing = context.active_object
+        return guess_steps(self._thing)
+
+    def finish(self, result: float) -> None:
+        """Say how sure it is."""
+        count = len(self._thing.facial_retarget.proposals)
+        if result < SURE:
+            self.report({"WARNING"}, f"{count} points proposed, but {self._thing.name} hardly looks like a face")
+        else:
+            self.report({"INFO"}, f"{count} points proposed: move what is wrong, then accept them")
+
+
+class FACIAL_RETARGET_OT_mirror_points(OnPoints, Operator):
+    """Place the partners of feature points on the other half of the face, through its surface"""
+
+    bl_idname = "facial_retarget.mirror_points"
+    bl_label = "Mirror Points"
+    bl_options = {"REGISTER", "UNDO"}
+
+    which: EnumProperty(
+        name="Mirror",
+        items=[
+            ("LEFT", "Left to Right", "From the half that is the subject's left to the other one"),
+            ("RIGHT", "Right to Left", "From the half that is the subject's right to the other one"),
+            ("CHOSEN", "Chosen Point", "From the point that is chosen in the list to its partner"),
+        ],
+        description="Which points are mirrored; their partners are moved if they are placed",
+    )
+
+    @tells_user
+    def execute(self, context: Context) -> set[str]:
+        """Mirror them."""
+        from ..facial_retarget_addon.bridge.point_prediction import mirror_points, names_to_mirror
+
+        thing = context.active_object
+        placed = mirror_points(thing, names_to_mirror(thing, self.which))
+        self.report({"INFO"}, f"{len(placed)} points mirrored")
+        return {"FINISHED"}
 
 
 class FACIAL_RETARGET_OT_accept_point(OnProposals, Operator):

@@ -1,16 +1,20 @@
-"""Proposals for the feature points that a face lacks."""
+"""Proposals for the feature points that a face lacks, and doubts about those that it has."""
 
 from __future__ import annotations
 
 from zlib import crc32
 
+import numpy as np
 from bpy.types import Object
 
+from ..core.arrays import Progress
+from ..core.doubts import doubts
 from ..core.errors import RetargetError
 from ..core.mesh import TriMesh
-from ..core.placing.predictor import Predictor
-from ..core.point_sets import POINT_INFOS, POINT_SETS
+from ..core.placing.predictor import LEAST, Guess, Predictor
+from ..core.point_sets import POINT_INFOS, POINT_SETS, partner_of, side_of
 from ..core.points import FeaturePoints
+from .background import Steps, in_thread
 from .meshes import neutral_mesh, read_positions, stretch
 from .points import place_points, read_points, read_proposals, write_proposals
 from .raycast import available_caster
@@ -18,6 +22,7 @@ from .topology import has_stale_points, topology_of
 
 KEPT = 4
 """Faces whose predictor is kept: source, target, and a pair that the artist worked on before."""
+
 
 Key = tuple[object, ...]
 """What tells one neutral from another."""
@@ -62,29 +67,47 @@ def key_of(thing: Object) -> Key:
     return topology_of(thing.data), crc32(read_positions(thing.data).tobytes()), stretch(thing).tobytes()
 
 
-def wanted_names(thing: Object) -> list[str]:
-    """Names of the object's set that are neither placed nor skipped, in the set's order."""
-    face = thing.facial_retarget
-    done = {*face.points.keys(), *face.skipped.keys()}
-    return [info.name for info in POINT_SETS[face.point_set] if info.name not in done]
-
-
 def update_predictions(thing: Object) -> None:
-    """Propose what the placed points tell of the missing ones.
+    """Propose what the placed points tell of the missing ones, and note which placed points are doubtful.
 
     To be called after points were placed, moved, removed or skipped. While the placed points are too few to tell
     anything, proposals stay as they are. On a mesh that has changed nothing is touched until the points are refreshed.
     """
     if has_stale_points(thing) or thing.data.is_editmode:
         return
-    wanted, known, proposals = wanted_names(thing), read_points(thing), _still_wanted(thing)
-    try:
-        predicted = predictor_of(thing).predict(known, wanted) if wanted else known.subset([])
-    except RetargetError:
-        # Too few points, or all on one line: Guess Points, which the artist asks for, says so.
-        predicted = known.subset([])
-    others = proposals.subset([name for name in proposals.names if name not in predicted.names])
+    points, wanted, there = read_points(thing), wanted_names(thing), _still_wanted(thing)
+    predicted = _predicted(thing, points, wanted)
+    others = there.subset([name for name in there.names if name not in predicted.names])
     write_proposals(thing, predicted.joined(others))
+    _note_doubts(thing, points)
+
+
+def guess_steps(thing: Object) -> Steps[float]:
+    """Propose all missing points of the object's set: by the placed ones where these tell enough, else from nothing.
+
+    Returns how sure it is that the mesh shows a face, from 0 to 1; 1 where the placed points tell enough.
+
+    Raises
+    ------
+    RetargetError : if the mesh shows no face, or no point is missing.
+    """
+    points, wanted = read_points(thing), wanted_names(thing)
+    if not wanted:
+        raise RetargetError(f"object {thing.name!r} lacks no point of its set, expected one that is to be guessed")
+    if _telling(points) >= LEAST:
+        update_predictions(thing)
+        return 1.0
+
+    predictor, doing = predictor_of(thing), f"looking for a face on {thing.name}"
+
+    def look(progress: Progress) -> Guess:
+        progress(0.0, doing)
+        return predictor.guess(wanted)
+
+    guess = yield from in_thread(look)
+    write_proposals(thing, guess.points)
+    update_predictions(thing)
+    return guess.confidence
 
 
 def accept_proposals(thing: Object, names: list[str] | None = None) -> int:
@@ -101,6 +124,37 @@ def accept_proposals(thing: Object, names: list[str] | None = None) -> int:
     return len(chosen)
 
 
+def mirror_points(thing: Object, names: list[str]) -> tuple[str, ...]:
+    """Place the partners of points on the other half of the face, through its surface; returns the partners' names.
+
+    Parameters
+    ----------
+    names : of placed points; those without a partner are left out.
+
+    Raises
+    ------
+    RetargetError : if none of them has a partner.
+    """
+    sided = [name for name in names if partner_of(name)]
+    if not sided:
+        raise RetargetError(
+            f"object {thing.name!r} has no feature point to mirror among {', '.join(names) or 'those of that half'}, "
+            "expected one that has a partner on the other half of the face"
+        )
+    partners = predictor_of(thing).mirrored(read_points(thing), sided)
+    place_points(thing, partners)
+    update_predictions(thing)
+    return partners.names
+
+
+def names_to_mirror(thing: Object, which: str) -> list[str]:
+    """Placed points to mirror: those of the half "LEFT" or "RIGHT", or "CHOSEN", the one chosen in the list."""
+    face = thing.facial_retarget
+    if which == "CHOSEN":
+        return [point.name for point in face.points[face.active_point : face.active_point + 1]]
+    return [point.name for point in face.points if side_of(point.name) == which.lower()]
+
+
 def chosen_proposal(thing: Object) -> str:
     """The name of the proposal that is chosen in the list; RetargetError if none is."""
     face = thing.facial_retarget
@@ -109,8 +163,47 @@ def chosen_proposal(thing: Object) -> str:
     return str(face.proposals[face.active_proposal].name)
 
 
+def wanted_names(thing: Object) -> list[str]:
+    """Names of the object's set that are neither placed nor skipped, in the set's order."""
+    face = thing.facial_retarget
+    done = {*face.points.keys(), *face.skipped.keys()}
+    return [info.name for info in POINT_SETS[face.point_set] if info.name not in done]
+
+
+def _telling(points: FeaturePoints) -> int:
+    """How many of the points the average face has."""
+    return len(POINT_INFOS.keys() & set(points.names))
+
+
+def _predicted(thing: Object, points: FeaturePoints, wanted: list[str]) -> FeaturePoints:
+    """The wanted points, or none while nothing tells where they are."""
+    if not wanted or not len(thing.data.polygons):
+        return FeaturePoints.none()
+    predictor = predictor_of(thing)
+    if _telling(points) < LEAST and not predictor.has_looked:
+        return FeaturePoints.none()
+    try:
+        return predictor.predict(points, wanted)
+    except RetargetError:
+        # All on one line: Guess Points, which the artist asks for, says so.
+        return FeaturePoints.none()
+
+
 def _still_wanted(thing: Object) -> FeaturePoints:
     """The proposals that there are, but for those that the set no longer wants; it has no say in names of one's own."""
     proposals, face = read_proposals(thing), thing.facial_retarget
     unwanted = (POINT_INFOS.keys() - wanted_names(thing)) | {*face.points.keys(), *face.skipped.keys()}
     return proposals.subset([name for name in proposals.names if name not in unwanted])
+
+
+def _note_doubts(thing: Object, points: FeaturePoints) -> None:
+    """Say of each placed point why it is doubtful: of where it lies against the others, and on an average face."""
+    if not len(points):
+        return
+    places = points.positions(read_positions(thing.data).astype(np.float64))
+    strange = dict.fromkeys(predictor_of(thing).doubtful(points), "far from where the other points expect it")
+    said = strange | doubts(points.names, places)
+    for point in thing.facial_retarget.points:
+        doubt = said.get(point.name, "")
+        if point.doubt != doubt:
+            point.doubt = doubt

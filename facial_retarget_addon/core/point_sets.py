@@ -194,3 +194,12 @@ def partner_of(name: str) -> str:
     if name in POINT_INFOS:
         return POINT_INFOS[name].partner
     return FDPS[name].partner if name in FDPS and FDPS[name].partner != name else ""
+
+
+def side_of(name: str) -> str:
+    """The half of the face, "left" or "right", that a point with a partner lies on; "" for all others."""
+    if not partner_of(name):
+        return ""
+    if name in POINT_INFOS:
+        return "left" if POINT_INFOS[name].diagram[0] > 0 else "right"
+    return "left" if "left" in FDPS[name].meaning else "right"

@@ -18,6 +18,7 @@ from facial_retarget_addon.core.point_sets import (
     partner_of,
     point_label,
     point_meaning,
+    side_of,
 )
 from facial_retarget_addon.demo.landmarks import POINTS
 
@@ -98,6 +99,12 @@ def test_every_name_has_a_label() -> None:
     assert point_label("8.3") == "Left Mouth Corner"
     assert point_label("10.5") == "Left ear lobe, bottom"
     assert point_label("wart") == "wart"
+
+
+@pytest.mark.parametrize("name", {**POINT_INFOS, **FDPS})
+def test_partners_lie_on_different_sides(name: str) -> None:
+    sides = {side_of(name), side_of(partner_of(name))} if partner_of(name) else {side_of(name)}
+    assert sides == ({"left", "right"} if partner_of(name) else {""})
 
 
 def test_partners_are_known_beyond_the_sets() -> None:

@@ -80,6 +80,11 @@ class Predictor:
         for _ in (skin.finder, skin.whole, skin.view, skin.samples, skin.exact_mirrors, self._best_face):
             pass
 
+    @property
+    def has_looked(self) -> bool:
+        """Whether the face was looked for from nothing, which takes a second or more."""
+        return "_face" in self.__dict__
+
     def predict(self, known: FeaturePoints, wanted: Sequence[str]) -> FeaturePoints:
         """Places of the wanted points.
 

@@ -22,6 +22,12 @@ class Recorder:
         group, _, own = name.partition(".")
         return SimpleNamespace() if getattr(getattr(bpy.ops, group), own).get_rna_type() else None
 
+    def operator_menu_enum(self, name: str, choice: str, **options: object) -> object:
+        """An operator and its choices must be there."""
+        group, _, own = name.partition(".")
+        assert choice in getattr(getattr(bpy.ops, group), own).get_rna_type().properties, (name, choice)
+        return SimpleNamespace()
+
     def template_list(self, kind: str, key: str, *lists: object, **options: object) -> None:
         """A list's collection and its active row must be there."""
         assert hasattr(bpy.types, kind), kind

@@ -125,3 +125,79 @@ points.place_point(thing, "wart", [3, 3, 3], [1.0, 0.0, 0.0])
 prediction.update_predictions(thing)
 assert face.proposals.keys() == FMC[6:]
 assert [point.title for point in face.points][-2:] == ["8.4  Right Mouth Corner", "wart"]
+
+# Guessed from nothing: the face is found by its shape alone, and one point placed moves the others.
+face.points.clear()
+face.proposals.clear()
+place("9.3")
+assert not len(face.proposals), "nobody waits for a guess that was not asked for"
+face.points.clear()
+undoable(operators.guess_points)
+assert face.proposals.keys() == FMC
+assert not len(face.points)
+positions = part("bridge.meshes").read_positions(thing.data).astype(float)
+
+
+def errors(names: list[str]) -> np.ndarray:
+    """How far proposals are off, in distances between the outer corners of the eyes."""
+    told, known = points.read_proposals(thing).subset(names), dict(zip(truth.names, at, strict=True))
+    gaps = told.positions(positions) - [known[name] for name in names]
+    return np.linalg.norm(gaps, axis=1) / np.linalg.norm(known["3.7"] - known["3.12"])
+
+
+at = truth.positions(part("bridge.meshes").read_positions(actor_face().data).astype(float))
+bpy.context.view_layer.objects.active = thing
+assert np.median(errors(FMC)) < 0.1, np.median(errors(FMC))
+nose = points.read_proposals(thing).subset(["9.3"])
+points.place_points(thing, nose)
+prediction.update_predictions(thing)
+assert face.proposals.keys() == [name for name in FMC if name != "9.3"]
+operators.accept_points()
+with refused("lacks no point"):
+    operators.guess_points()
+assert not any(point.doubt for point in face.points), [point.doubt for point in face.points]
+
+# Nothing that looks like a face.
+bpy.ops.mesh.primitive_cube_add()
+with refused("no face"):
+    operators.guess_points()
+bpy.ops.object.delete()
+bpy.context.view_layer.objects.active = thing
+
+# Mirrored through the surface: to the place of the partner; the middle line has none.
+before = dict(zip(face.points.keys(), points.read_points(thing).positions(positions), strict=True))
+for name in [name for name in FMC if sets.side_of(name) == "right"]:
+    points.remove_point(thing, name)
+undoable(operators.mirror_points, which="LEFT")
+after = dict(zip(face.points.keys(), points.read_points(thing).positions(positions), strict=True))
+assert set(after) == set(FMC)
+left = [name for name in FMC if sets.side_of(name) == "left"]
+across = np.array([after[sets.partner_of(name)] - after[name] for name in left])
+across /= np.linalg.norm(across, axis=1)[:, None]
+assert (np.abs(across @ across.mean(axis=0)) > 0.98).all(), "the mirrored points are not across from their partners"
+assert all(np.array_equal(after[name], before[name]) for name in FMC if sets.side_of(name) != "right")
+face.active_point = face.points.find("8.4")
+points.remove_point(thing, "8.3")
+face.active_point = face.points.find("8.4")
+undoable(operators.mirror_points, which="CHOSEN")
+assert "8.3" in face.points
+face.active_point = face.points.find("9.3")
+with refused("9.3", "partner"):
+    operators.mirror_points(which="CHOSEN")
+
+# Doubts: swapped points say so, until they are put right.
+stored = points.read_points(thing)
+swapped = {"8.3": "8.4", "8.4": "8.3"}
+for name, other in swapped.items():
+    points.place_point(thing, name, stored.subset([other]).vertices[0], stored.subset([other]).weights[0])
+prediction.update_predictions(thing)
+assert {point.name for point in face.points if point.doubt} == {"8.3", "8.4"}, [
+    (point.name, point.doubt) for point in face.points if point.doubt
+]
+assert "wrong side" in face.points["8.3"].doubt
+points.place_points(thing, stored.subset(["8.3", "8.4"]))
+prediction.update_predictions(thing)
+assert not any(point.doubt for point in face.points)
+points.place_points(thing, part("core.points").FeaturePoints(("9.3",), stored.subset(["11.1"]).vertices, [[1.0, 0, 0]]))
+prediction.update_predictions(thing)
+assert face.points["9.3"].doubt, "a nose on the forehead"
