@@ -107,6 +107,7 @@ def _draw_list(layout: UILayout, context: Context, face: PropertyGroup) -> None:
     stored, active = getattr(face, collection), getattr(face, chosen)
     if active in range(len(stored)):
         point = stored[active]
-        doubt = point.doubt if face.point_list == "PLACED" else ""
-        if doubt or point.meaning:
-            draw_text(layout, context, doubt or point.meaning, "ERROR" if doubt else "BLANK1")
+        if face.point_list == "PLACED" and point.doubt:
+            draw_text(layout, context, filled("Doubtful: {why}", why=point.doubt), "ERROR")
+        elif point.meaning:
+            draw_text(layout, context, point.meaning, "BLANK1")

@@ -127,6 +127,8 @@ def accept_proposals(thing: Object, names: list[str] | None = None) -> int:
 def mirror_points(thing: Object, names: list[str]) -> tuple[str, ...]:
     """Place the partners of points on the other half of the face, through its surface; returns the partners' names.
 
+    Where the partners were before has no say: it may be what the artist wants to get rid of.
+
     Parameters
     ----------
     names : of placed points; those without a partner are left out.
@@ -141,7 +143,9 @@ def mirror_points(thing: Object, names: list[str]) -> tuple[str, ...]:
             f"object {thing.name!r} has no feature point to mirror among {', '.join(names) or 'those of that half'}, "
             "expected one that has a partner on the other half of the face"
         )
-    partners = predictor_of(thing).mirrored(read_points(thing), sided)
+    points, anew = read_points(thing), {partner_of(name) for name in sided} - set(sided)
+    believed = points.subset([name for name in points.names if name not in anew])
+    partners = predictor_of(thing).mirrored(believed, sided)
     place_points(thing, partners)
     update_predictions(thing)
     return partners.names

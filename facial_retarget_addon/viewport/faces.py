@@ -85,7 +85,9 @@ def face_marks(context: Context, thing: Object) -> FaceMarks:
     """The marks of a face, made anew only where something has changed."""
     face = thing.facial_retarget
     active = face.active_point if thing == context.active_object else -1
-    state = (look(thing), active, folded_names(thing), stored_points(face.points), stored_points(face.proposals))
+    noted = tuple(point.doubt for point in face.points)
+    stored = stored_points(face.points), stored_points(face.proposals), noted
+    state = (look(thing), active, folded_names(thing), *stored)
     made = _made.get(thing.session_uid)
     if made is None or made.state != state:
         made = _made[thing.session_uid] = _make(thing, context.view_layer.depsgraph, active, state)
@@ -101,7 +103,8 @@ def _make(thing: Object, depsgraph: Any, active: int, state: tuple[Any, ...]) ->
     except RetargetError as error:
         none = np.empty((0, 3))
         return FaceMarks(state, (), 0, (), none, none, None, {}, str(error))
-    doubtful = dict.fromkeys(folded_names(thing), FOLDED) | doubts(placed, at)
+    noted = {point.name: point.doubt for point in thing.facial_retarget.points if point.doubt}
+    doubtful = noted | dict.fromkeys(folded_names(thing), FOLDED) | doubts(placed, at)
     shapes = [DOUBTFUL if name in doubtful else PLACED for name in placed] + [PROPOSED] * len(proposed)
     if 0 <= active < len(placed):
         shapes[active] = SELECTED

@@ -176,6 +176,10 @@ across = np.array([after[sets.partner_of(name)] - after[name] for name in left])
 across /= np.linalg.norm(across, axis=1)[:, None]
 assert (np.abs(across @ across.mean(axis=0)) > 0.98).all(), "the mirrored points are not across from their partners"
 assert all(np.array_equal(after[name], before[name]) for name in FMC if sets.side_of(name) != "right")
+points.place_point(thing, "8.4", [3, 3, 3], [1.0, 0.0, 0.0])
+operators.mirror_points(which="LEFT")
+again_after = dict(zip(face.points.keys(), points.read_points(thing).positions(positions), strict=True))
+assert all(np.allclose(again_after[name], after[name], atol=1e-4) for name in after), "a wrong partner had a say"
 face.active_point = face.points.find("8.4")
 points.remove_point(thing, "8.3")
 face.active_point = face.points.find("8.4")
