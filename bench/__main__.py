@@ -16,6 +16,7 @@ SECTIONS = (
     "cloning_speed",
     "parts",
     "placing",
+    "normal_maps",
     "blender_write",
     "preview",
     "points",

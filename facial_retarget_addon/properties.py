@@ -426,12 +426,7 @@ class FACIAL_RETARGET_PG_normal_maps(PropertyGroup):
         ],
     )
     level: IntProperty(name="Level", default=2, min=1, max=6, description="Level that the maps are for: 1 is coarsest")
-    pixels: EnumProperty(
-        name="Size",
-        description="Pixels along each side of a map",
-        items=[(str(size), f"{size} px", f"{size} by {size} pixels") for size in (256, 512, 1024, 2048, 4096)],
-        default="1024",
-    )
+    pixels: IntProperty(name="Size", default=1024, min=16, max=16384, description="Pixels along each side of a map")
     margin: IntProperty(
         name="Margin",
         default=8,
@@ -448,8 +443,13 @@ class FACIAL_RETARGET_PG_normal_maps(PropertyGroup):
             ("exr", "OpenEXR", "Floats, as they were computed"),
         ],
     )
-    directx: BoolProperty(
-        name="DirectX", description="Green points down, as DirectX has it; up as OpenGL has it if off"
+    convention: EnumProperty(
+        name="Green",
+        description="Which way green points in the pictures",
+        items=[
+            ("opengl", "Up (OpenGL)", "As Blender and OpenGL have it"),
+            ("directx", "Down (DirectX)", "As DirectX has it"),
+        ],
     )
     folder: StringProperty(name="Folder", subtype="DIR_PATH", description="Folder that the maps become; it is replaced")
     wire: BoolProperty(

@@ -25,6 +25,6 @@ class FACIAL_RETARGET_PT_normal_maps(RetargetTab, Panel):
         column.prop(maps, "pixels")
         column.prop(maps, "margin")
         layout.prop(maps, "depth")
-        layout.prop(maps, "directx")
+        layout.prop(maps, "convention")
         layout.prop(maps, "wire")
         layout.operator("facial_retarget.make_normal_maps", icon="TEXTURE")

@@ -28,6 +28,7 @@ from .beside import Beside
 from .examples import write_example
 from .gains import write_gains
 from .heads import write_named_parts
+from .map_output import map_output, show_map_output
 from .meshes import new_face
 from .performance import read_frames
 from .points import write_points
@@ -45,6 +46,7 @@ def save_job_steps(context: Context, path: Path) -> Steps[None]:
     task = context.scene.facial_retarget
     problem, settings, heads = read_problem(context), read_task_settings(task), read_heads(context)
     frames = yield from part(read_frames(context, task.source, frame_range(context)), 0.0, 0.8)
+    maps = map_output(task)
     method, wanted = task.method, [_chosen(file) for file in (task.output, task.report, task.page)]
 
     def write(progress: Progress) -> None:
@@ -66,6 +68,7 @@ def save_job_steps(context: Context, path: Path) -> Steps[None]:
                 tuple(
                     files.mask(name, number, mask) for number, (name, mask) in enumerate(problem.gains.masks.items(), 1)
                 ),
+                maps,
             )
             write_job(job, aside.place(path))
             # The last moment to stop: after it the files appear.
@@ -138,6 +141,7 @@ def load_job_steps(context: Context, path: Path, up: str) -> Steps[None]:
     task.output, task.report, task.page = (
         "" if file is None else str(file) for file in (job.output.frames, job.output.report, job.output.page)
     )
+    show_map_output(task.normal_maps, job.normal_maps)
     task.base = None if problem.base is None else show_triangles(task.source, problem.base)
     context.view_layer.update()
 

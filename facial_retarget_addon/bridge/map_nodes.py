@@ -8,8 +8,9 @@ from typing import NamedTuple
 import bpy
 from bpy.types import Image, Material, Node, NodeSocket, NodeTree, Object
 
+from ..core.methods.settings import MapSettings
 from ..core.normal_maps.frame_maps import Tile
-from ..files.normal_map_files import MapFiles, udim_number
+from ..files.normal_map_files import map_name, udim_number
 
 LABEL = "Facial Retarget Normal Map"
 """Nodes with this label are ours: made anew each time."""
@@ -19,7 +20,7 @@ class MapSequence(NamedTuple):
     """Maps on disk, by frame and UDIM tile."""
 
     folder: Path
-    files: MapFiles
+    settings: MapSettings
     tiles: tuple[Tile, ...]
     frames: range
 
@@ -72,7 +73,7 @@ def _normal(tree: NodeTree, sequence: MapSequence, uv_name: str, before: Node) -
         colour = both.outputs[0]
     node = _new(tree, "ShaderNodeNormalMap", (left - 220, top))
     node.uv_map = uv_name
-    if sequence.files.directx:
+    if sequence.settings.convention == "directx":
         if hasattr(node, "convention"):  # from 5.2 on
             node.convention = "DIRECTX"
         else:
@@ -114,7 +115,7 @@ def _green_turned(tree: NodeTree, colour: NodeSocket, place: tuple[float, float]
 def _image(sequence: MapSequence, tile: Tile) -> Image:
     """The first frame's picture, as a sequence where there are several."""
     several = len(sequence.tiles) > 1
-    path = sequence.folder / sequence.files.name(sequence.frames.start, tile if several else None)
+    path = sequence.folder / map_name(sequence.settings.depth, sequence.frames.start, tile if several else None)
     image = bpy.data.images.load(str(path), check_existing=True)
     image.reload()
     image.colorspace_settings.name = "Non-Color"

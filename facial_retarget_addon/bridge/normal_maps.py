@@ -13,19 +13,19 @@ from ..core.arrays import FloatArray, Progress, progress_part
 from ..core.errors import RetargetError
 from ..core.level_retargeter import LevelRetargeter
 from ..core.methods.settings import LEVELED
-from ..core.normal_maps.frame_maps import FrameMaps, MapSize
-from ..core.normal_maps.surface import TexturedSurface
+from ..core.normal_maps.frame_maps import FrameMaps
 from ..core.retarget import checked_fit
-from ..files.normal_map_files import MapFiles, write_frame_maps
+from ..files.images import suffix_of
+from ..files.normal_map_files import textured, write_frame_maps
 from ..files.whole import written_whole
 from .background import Steps, in_thread, part
 from .bake import write_frames
 from .heads import head_parts, read_head
 from .key_sets import check_targets
 from .map_nodes import MapSequence, wire
+from .map_output import map_folder, map_settings
 from .meshes import from_face_space, new_object, read_face
 from .performance import read_frames
-from .raycast import available_caster
 from .settings import read_task_settings
 from .task import frame_range, read_problem
 
@@ -62,68 +62,30 @@ def normal_map_steps(context: Context) -> Steps[MadeMaps]:
     wish, method, settings = task.normal_maps, task.method, read_task_settings(task)
     if method not in LEVELED:
         raise RetargetError(f"method {method!r} has no levels, expected one of {', '.join(LEVELED)}")
-    folder = chosen_folder(wish.folder)
+    folder = map_folder(wish)
     problem = read_problem(context)
     check_targets((task.source, *head_parts(task.source)), read_head(task.target).things)
-    light = wish.level if wish.light == "LEVEL" else textured_surface(task.target)
-    files, size = MapFiles(wish.depth, wish.directx), MapSize(int(wish.pixels), wish.margin)
+    made = map_settings(wish)
+    surface = None if made.level else textured(read_face(task.target), f"object {task.target.name!r}")
     frames = frame_range(context)
     source = yield from part(read_frames(context, task.source, frames), 0.0, READING)
     with written_whole() as aside:
-        place = aside.place(folder, replaces=files.suffix)
+        place = aside.place(folder, replaces=suffix_of(made.depth))
         place.mkdir()
 
         def compute(progress: Progress) -> _Computed:
-            made = checked_fit(method, problem, settings, progress_part(progress, 0.0, 0.3))
-            maps = FrameMaps(
-                cast(LevelRetargeter, made),
-                problem.source.mesh.vertices,
-                light,
-                size,
-                available_caster(),
-                progress_part(progress, 0.3, 0.4),
-            )
-            return _Computed(
-                maps, write_frame_maps(place, files, maps, source, frames.start, progress_part(progress, 0.4, 1.0))
-            )
+            fitted = cast(LevelRetargeter, checked_fit(method, problem, settings, progress_part(progress, 0.0, 0.3)))
+            maps = FrameMaps(fitted, problem, surface, made, progress_part(progress, 0.3, 0.4))
+            writing = progress_part(progress, 0.4, 1.0)
+            return _Computed(maps, write_frame_maps(place, made, maps, source, frames.start, writing))
 
         computed = yield from part(in_thread(compute), READING, 1 - READING)
     thing = task.target
-    if wish.light == "LEVEL":
-        thing = _level_object(task.target, wish.level, computed, frames.start)
-    sequence = MapSequence(folder, files, tuple(computed.maps.maps), frames)
+    if made.level:
+        thing = _level_object(task.target, made.level, computed, frames.start)
+    sequence = MapSequence(folder, made, tuple(computed.maps.maps), frames)
     warnings = wire(thing, sequence) if wish.wire else []
     return MadeMaps(folder, thing, warnings)
-
-
-def chosen_folder(path: str) -> Path:
-    """The folder that a property names, absolute.
-
-    Raises
-    ------
-    RetargetError : if none is named, or it lies beside a .blend that is not saved yet.
-    """
-    if not path:
-        raise RetargetError("no folder is chosen for the normal maps, expected one under Normal Maps")
-    if path.startswith("//") and not bpy.data.filepath:
-        raise RetargetError(f"folder {path!r} lies beside the .blend, which is not saved yet; save it, or name another")
-    return Path(bpy.path.abspath(path)).absolute()
-
-
-def textured_surface(thing: Object) -> TexturedSurface:
-    """An object's mesh in its neutral with the UVs of its active map.
-
-    Raises
-    ------
-    RetargetError : if it has no UVs, or as `read_face`.
-    """
-    face = read_face(thing)
-    if face.uvs is None:
-        raise RetargetError(
-            f"object {thing.name!r} has no UV map, expected one for its normal maps; unwrap it, or make the maps for a "
-            "level of its normal mesh"
-        )
-    return TexturedSurface(face.mesh, face.counts, face.corners, face.uvs)
 
 
 def _level_object(target: Object, level: int, computed: _Computed, first: int) -> Object:

@@ -21,6 +21,10 @@ class GainedFace:
     Parameters
     ----------
     face : the target.
+
+    Attributes
+    ----------
+    strength : (V,) of the motion at its vertices.
     """
 
     def __init__(self, face: Face, gains: Gains) -> None:
@@ -35,9 +39,9 @@ class GainedFace:
         ------
         RetargetError : as `region_weights`, where a region's gain is not 1; for a mask of another vertex count.
         """
-        strength = self._strength(gains)
-        self._rows: IntArray = np.flatnonzero(strength != 1.0)
-        self._strength_there = strength[self._rows, None].astype(np.float32)
+        self.strength = self._strength(gains)
+        self._rows: IntArray = np.flatnonzero(self.strength != 1.0)
+        self._strength_there = self.strength[self._rows, None].astype(np.float32)
 
     def scale(self, frames: FloatArray) -> FloatArray:
         """Frames (F, V, 3) float32 of the face, their motion scaled in place."""

@@ -134,6 +134,11 @@ class LevelRetargeter:
         fine += finest.positions.astype(np.float32)
         return fine, finest.faces
 
+    def at_finest(self, values: FloatArray) -> FloatArray:
+        """Values of the target's vertices (Vt,) at the vertices of the finest mesh (N,)."""
+        fine: FloatArray = self._pair.fine_places @ values
+        return fine
+
     def level_faces(self, level: int) -> IntArray:
         """Faces (M, 3) of a level, 1 the coarsest; its vertices are the first ones of the finest mesh.
 

@@ -34,12 +34,14 @@ class Result:
     report : plain data.
     per_frame : the figures of each frame.
     levels : what each level adds to the motion of source frames (F, Vs, 3); None for a method without levels.
+    leveled : what was fitted, before the gains; None for a method without levels.
     """
 
     frames: FloatArray
     report: dict[str, Any]
     per_frame: Mapping[str, Sequence[float]]
     levels: LevelsOf | None = None
+    leveled: LevelRetargeter | None = None
 
 
 def retarget(
@@ -93,8 +95,9 @@ def retarget(
             "quality": measuring,
         },
     }
-    levels = _gained_levels(retargeter, gained) if isinstance(retargeter, LevelRetargeter) else None
-    return Result(result, report, quality.per_frame(), levels)
+    leveled = retargeter if isinstance(retargeter, LevelRetargeter) else None
+    levels = None if leveled is None else _gained_levels(leveled, gained)
+    return Result(result, report, quality.per_frame(), levels, leveled)
 
 
 def checked_fit(method: str, problem: Problem, settings: Settings, progress: Progress = no_progress) -> Retargeter:

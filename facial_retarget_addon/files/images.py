@@ -19,6 +19,18 @@ _EXR_LINES = 16
 """Lines that are compressed together; the format's."""
 
 
+def suffix_of(depth: str) -> str:
+    """Suffix of picture files of a depth.
+
+    Raises
+    ------
+    RetargetError : for a depth that is none of `DEPTHS`.
+    """
+    if depth not in DEPTHS:
+        raise RetargetError(f"pictures of depth {depth!r} are not known, expected one of {', '.join(DEPTHS)}")
+    return DEPTHS[depth][0]
+
+
 def image_bytes(picture: FloatArray, depth: str) -> bytes:
     """A picture (H, W, 3) of values from 0 to 1, first row on top, as a file of one of `DEPTHS`.
 
@@ -26,8 +38,7 @@ def image_bytes(picture: FloatArray, depth: str) -> bytes:
     ------
     RetargetError : for another depth.
     """
-    if depth not in DEPTHS:
-        raise RetargetError(f"pictures of depth {depth!r} are not known, expected one of {', '.join(DEPTHS)}")
+    suffix_of(depth)
     if depth == "exr":
         return exr_bytes(picture)
     whole = np.clip(picture, 0.0, 1.0)
@@ -44,8 +55,8 @@ def write_image(picture: FloatArray, path: Path, depth: str) -> None:
     RetargetError : for another depth, or a suffix that is not that depth's.
     """
     data = image_bytes(picture, depth)
-    if path.suffix.lower() != DEPTHS[depth][0]:
-        raise RetargetError(f"{path} ends in {path.suffix!r}, expected {DEPTHS[depth][0]!r} for {depth}")
+    if path.suffix.lower() != suffix_of(depth):
+        raise RetargetError(f"{path} ends in {path.suffix!r}, expected {suffix_of(depth)!r} for {depth}")
     path.write_bytes(data)
 
 

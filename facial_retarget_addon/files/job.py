@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ..core.errors import RetargetError
-from ..core.methods.settings import MASK_GAIN, RegionGains, Settings, read_values
+from ..core.methods.settings import LEVELED, MASK_GAIN, LevelSettings, MapSettings, RegionGains, Settings, read_values
 from .documents import Table, fault_sentence, read_toml
 from .job_values import check_method, read_method_settings, read_optional_path, read_path, relative, toml
 from .whole import overwritten, write_whole
@@ -53,12 +53,21 @@ class OutputFiles:
 
 
 @dataclass(frozen=True)
+class MapOutput:
+    """The folder that the normal maps become, and how they are made."""
+
+    folder: Path
+    settings: MapSettings
+
+
+@dataclass(frozen=True)
 class Job:
     """A retargeting task. Its paths are absolute; in the file they are relative to the file's folder.
 
     base : a base mesh of the artist's own, or None.
     path : the job file itself.
     regions, masks : how strong the motion is at each place of the target.
+    normal_maps : None for none.
     """
 
     method: str
@@ -71,6 +80,7 @@ class Job:
     path: Path
     regions: RegionGains = field(default_factory=RegionGains)
     masks: tuple[MaskFile, ...] = ()
+    normal_maps: MapOutput | None = None
 
     def inputs(self) -> dict[str, Path]:
         """What is read: how the job file names it -> its path."""
@@ -93,7 +103,8 @@ class Job:
     def outputs(self) -> dict[str, Path]:
         """What is written: how the job file names it -> its path."""
         named = {"frames": self.output.frames, "report": self.output.report, "page": self.output.page}
-        return {f"[output] {name}": path for name, path in named.items() if path is not None}
+        written = {f"[output] {name}": path for name, path in named.items() if path is not None}
+        return written if self.normal_maps is None else {**written, "[normal_maps] folder": self.normal_maps.folder}
 
 
 def read_job(path: Path) -> Job:
@@ -120,7 +131,10 @@ def read_job(path: Path) -> Job:
         path=path,
         regions=_read_regions(root),
         masks=_read_masks(root, path.parent),
+        normal_maps=_read_normal_maps(root, path.parent),
     )
+    if job.normal_maps is not None:
+        wrong += _map_faults(job.normal_maps, method, job.settings)
     root.no_more()
     if not wrong:
         wrong += overwritten({"the job file": job.path, **job.inputs()}, job.outputs())
@@ -171,6 +185,31 @@ def _read_masks(root: Table, folder: Path) -> tuple[MaskFile, ...]:
     return tuple(masks)
 
 
+def _read_normal_maps(root: Table, folder: Path) -> MapOutput | None:
+    values = root.optional("normal_maps", dict)
+    if values is None:
+        return None
+    table = Table(values, "[normal_maps]", root.wrong)
+    place = read_path(table, "folder", folder)
+    try:
+        rest = {name: value for name, value in values.items() if name != "folder"}
+        return MapOutput(place, read_values(MapSettings, rest, "[normal_maps]"))
+    except RetargetError as error:
+        root.wrong.append(str(error))
+        return None
+
+
+def _map_faults(maps: MapOutput, method: str, settings: Settings) -> list[str]:
+    """What the method cannot do for the maps."""
+    if not isinstance(settings, LevelSettings):
+        return [f"[normal_maps] need a method with levels, expected one of {', '.join(LEVELED)}, not {method}"]
+    if maps.settings.level > settings.levels:
+        return [
+            f"[normal_maps] level = {maps.settings.level}, expected one of the {settings.levels} in [settings], or 0"
+        ]
+    return []
+
+
 def _read_output(table: Table, folder: Path) -> OutputFiles:
     output = OutputFiles(
         read_path(table, "frames", folder),
@@ -204,10 +243,14 @@ def write_job(job: Job, path: Path) -> None:
     for mask in job.masks:
         weights = toml(relative(mask.weights, folder))
         lines += ["", "[[masks]]", f"name = {toml(mask.name)}", f"weights = {weights}", f"gain = {toml(mask.gain)}"]
+    if job.normal_maps is not None:
+        lines += ["", "[normal_maps]", f"folder = {toml(relative(job.normal_maps.folder, folder))}"]
+        lines += [f"{f.name} = {toml(getattr(job.normal_maps.settings, f.name))}" for f in fields(MapSettings)]
     lines += ["", "[settings]"]
     lines += [f"{field.name} = {toml(getattr(job.settings, field.name))}" for field in fields(job.settings)]
     lines += ["", "[output]"]
-    lines += [f"{key.split()[1]} = {toml(relative(file, folder))}" for key, file in job.outputs().items()]
+    files = {"frames": job.output.frames, "report": job.output.report, "page": job.output.page}
+    lines += [f"{key} = {toml(relative(file, folder))}" for key, file in files.items() if file is not None]
     write_whole(path, ("\n".join(lines) + "\n").encode())
 
 

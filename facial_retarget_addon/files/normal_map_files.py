@@ -2,41 +2,46 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from ..core.arrays import FloatArray, Progress, no_progress
 from ..core.errors import RetargetError
+from ..core.methods.settings import MapSettings
 from ..core.normal_maps.encoding import as_picture
 from ..core.normal_maps.frame_maps import FrameMaps, Tile
-from .images import DEPTHS, write_image
+from ..core.normal_maps.surface import TexturedSurface
+from .images import suffix_of, write_image
+from .mesh_file import MeshFile
 
 STEM = "normal"
 
 
-@dataclass(frozen=True)
-class MapFiles:
-    """How normal maps are written.
+def map_name(depth: str, frame: int, tile: Tile | None = None) -> str:
+    """Name of a frame's file: the UDIM tile stands before the frame where there are several.
 
-    depth : one of `DEPTHS`. directx : green points down.
+    Raises
+    ------
+    RetargetError : for a depth that is none of `DEPTHS`.
     """
+    udim = "" if tile is None else f".{udim_number(tile)}"
+    return f"{STEM}{udim}.{frame:04d}{suffix_of(depth)}"
 
-    depth: str = "png16"
-    directx: bool = False
 
-    @property
-    def suffix(self) -> str:
-        """Of the files."""
-        if self.depth not in DEPTHS:
-            raise RetargetError(f"pictures of depth {self.depth!r} are not known, expected one of {', '.join(DEPTHS)}")
-        return DEPTHS[self.depth][0]
+def textured(face: MeshFile, what: str) -> TexturedSurface:
+    """A mesh with its texture coordinates.
 
-    def name(self, frame: int, tile: Tile | None = None) -> str:
-        """Of a frame's file: the UDIM tile stands before the frame where there are several."""
-        udim = "" if tile is None else f".{udim_number(tile)}"
-        return f"{STEM}{udim}.{frame:04d}{self.suffix}"
+    Raises
+    ------
+    RetargetError : if it has none; the message starts with `what`.
+    """
+    if face.uvs is None:
+        raise RetargetError(
+            f"{what} has no texture coordinates, expected some for its normal maps; unwrap it, or make the maps for a "
+            "level of its normal mesh"
+        )
+    return TexturedSurface(face.mesh, face.counts, face.corners, face.uvs)
 
 
 def udim_number(tile: Tile) -> int:
@@ -45,7 +50,12 @@ def udim_number(tile: Tile) -> int:
 
 
 def write_frame_maps(
-    folder: Path, files: MapFiles, maps: FrameMaps, frames: FloatArray, first: int, progress: Progress = no_progress
+    folder: Path,
+    settings: MapSettings,
+    maps: FrameMaps,
+    frames: FloatArray,
+    first: int,
+    progress: Progress = no_progress,
 ) -> FloatArray:
     """Write the maps of source frames (F, Vs, 3) into a folder that is there, the first frame's number being `first`.
 
@@ -59,6 +69,6 @@ def write_frame_maps(
         progress(row / len(frames), f"normal map {row + 1} of {len(frames)}")
         light[row], tiles = maps.frame(frame)
         for tile, vectors in tiles.items():
-            path = folder / files.name(first + row, tile if several else None)
-            write_image(as_picture(vectors, files.directx), path, files.depth)
+            path = folder / map_name(settings.depth, first + row, tile if several else None)
+            write_image(as_picture(vectors, settings.convention == "directx"), path, settings.depth)
     return light

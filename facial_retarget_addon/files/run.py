@@ -14,20 +14,24 @@ from ..core.arrays import FloatArray, Progress, no_progress, progress_part
 from ..core.checks import faults, warnings
 from ..core.errors import RetargetError
 from ..core.gains import Gains, Mask
+from ..core.level_retargeter import LevelRetargeter
+from ..core.normal_maps.frame_maps import FrameMaps
 from ..core.parts.kinds import NO_NAMES, NamedParts
 from ..core.points import FeaturePoints
 from ..core.problem import Face, Problem
 from ..core.retarget import retarget
 from .base_mesh import read_base_mesh
 from .frames import add_frames, check_frames_place, read_frames
-from .job import FaceFiles, Job, read_job
+from .images import suffix_of
+from .job import FaceFiles, Job, MapOutput, read_job
 from .masks import read_mask
 from .mesh_file import MeshFile
 from .meshes import read_mesh, read_positions
+from .normal_map_files import textured, write_frame_maps
 from .pages.report import report_json, report_page
 from .parts import read_parts
 from .points import read_points
-from .whole import check_place, written_whole
+from .whole import Aside, check_place, written_whole
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -73,21 +77,35 @@ def run_job(path: Path, progress: Progress = no_progress) -> dict[str, Any]:
     if wrong or inputs is None or inputs.frames is None:
         raise RetargetError("; ".join([*wrong, *_problem_faults(inputs, job)]))
     seconds = {"read": time.perf_counter() - start}
-    result = retarget(job.method, inputs.problem, job.settings, inputs.frames, progress_part(progress, 0.1, 0.9))
+    result = retarget(job.method, inputs.problem, job.settings, inputs.frames, progress_part(progress, 0.1, 0.85))
     report = {"job": job.path.name, **result.report}
     report["seconds"] = seconds | report.get("seconds", {})
-    progress(0.9, "Writing")
+    progress(0.85, "Writing")
     with written_whole() as aside:
         corners = inputs.target.counts, inputs.target.corners
         add_frames(aside, result.frames, job.output.frames, corners)
         if job.output.report is not None:
             aside.place(job.output.report).write_bytes(report_json(report))
         if job.output.page is not None:
-            progress(0.93, "Taking pictures")
+            progress(0.87, "Taking pictures")
             page = report_page(report, inputs.problem, inputs.frames, result.frames, result.levels)
             aside.place(job.output.page).write_bytes(page)
+        if job.normal_maps is not None and result.leveled is not None:
+            _add_normal_maps(aside, job.normal_maps, inputs, result.leveled, progress_part(progress, 0.9, 1.0))
     progress(1.0, "Done")
     return report
+
+
+def _add_normal_maps(
+    aside: Aside, output: MapOutput, inputs: Inputs, retargeter: LevelRetargeter, progress: Progress
+) -> None:
+    """Write the normal maps of all frames."""
+    surface = None if output.settings.level else textured(inputs.target, "[target] neutral")
+    folder = aside.place(output.folder, replaces=suffix_of(output.settings.depth))
+    folder.mkdir()
+    maps = FrameMaps(retargeter, inputs.problem, surface, output.settings, progress_part(progress, 0.0, 0.2))
+    frames = np.asarray(inputs.frames, np.float32)
+    write_frame_maps(folder, output.settings, maps, frames, 1, progress_part(progress, 0.2, 1.0))
 
 
 def check_job(path: Path) -> Findings:
@@ -125,6 +143,10 @@ def _read(job: Job) -> tuple[Inputs | None, list[str]]:
     for output in (job.output.report, job.output.page):
         if output is not None:
             reading.attempt(check_place, output)
+    if job.normal_maps is not None:
+        reading.attempt(check_place, job.normal_maps.folder, suffix_of(job.normal_maps.settings.depth))
+        if inputs is not None and not job.normal_maps.settings.level:
+            reading.attempt(textured, inputs.target, f"[target] neutral {job.target.neutral}")
     return inputs, reading.wrong
 
 

@@ -1,16 +1,20 @@
 """Normal maps: texels, tangents, and what a shader makes of them."""
 
+from dataclasses import replace
+from typing import NamedTuple
+
 import numpy as np
 import pytest
 
 from facial_retarget_addon import demo
 from facial_retarget_addon.core.errors import RetargetError
+from facial_retarget_addon.core.gains import Gains, Mask
 from facial_retarget_addon.core.level_retargeter import LevelRetargeter
 from facial_retarget_addon.core.mesh import TriMesh
 from facial_retarget_addon.core.methods.base import fit
-from facial_retarget_addon.core.methods.settings import HierarchicalSettings
+from facial_retarget_addon.core.methods.settings import HierarchicalSettings, MapSettings
 from facial_retarget_addon.core.normal_maps.chart import disc_chart
-from facial_retarget_addon.core.normal_maps.frame_maps import FrameMaps, MapSize
+from facial_retarget_addon.core.normal_maps.frame_maps import FrameMaps
 from facial_retarget_addon.core.normal_maps.normal_map import fit_normal_map
 from facial_retarget_addon.core.normal_maps.strain import compression, wrinkle_mask
 from facial_retarget_addon.core.normal_maps.surface import TexturedSurface
@@ -177,12 +181,19 @@ def test_a_wrinkle_mask_rises_smoothly_from_nothing_to_full() -> None:
     assert (np.diff(mask) >= 0).all()
 
 
+class Fitted(NamedTuple):
+    retargeter: LevelRetargeter
+    problem: Problem
+    performance: np.ndarray
+    child: demo.DemoFace
+
+
 @pytest.fixture(scope="module")
-def fitted() -> tuple[LevelRetargeter, np.ndarray, demo.DemoFace]:
-    """The built-in actor onto the child, its performance, and the child."""
+def fitted() -> Fitted:
+    """The built-in actor onto the child, and the actor's performance."""
     actor, child = demo.actor(6_000), demo.child()
-    settings = HierarchicalSettings(levels=3)
-    return fit("hierarchical", Problem(actor.face, child.face), settings), demo.performance(actor), child
+    problem = Problem(actor.face, child.face)
+    return Fitted(fit("hierarchical", problem, HierarchicalSettings(levels=3)), problem, demo.performance(actor), child)
 
 
 def skin_surface(face: demo.DemoFace) -> TexturedSurface:
@@ -190,9 +201,9 @@ def skin_surface(face: demo.DemoFace) -> TexturedSurface:
     return TexturedSurface(face.face.mesh, face.counts, face.corners, face.uvs[face.corners])
 
 
-def test_a_performance_becomes_maps_of_the_artists_mesh(fitted: tuple) -> None:
-    retargeter, performance, child = fitted
-    made = FrameMaps(retargeter, performance[0], skin_surface(child), MapSize(128, 4))
+def test_a_performance_becomes_maps_of_the_artists_mesh(fitted: Fitted) -> None:
+    retargeter, problem, performance, child = fitted
+    made = FrameMaps(retargeter, problem, skin_surface(child), MapSettings(pixels=128))
     assert list(made.maps) == [(0, 0)]
     light, tiles = made.frame(performance[0])
     still = tiles[0, 0]
@@ -205,13 +216,21 @@ def test_a_performance_becomes_maps_of_the_artists_mesh(fitted: tuple) -> None:
     np.testing.assert_array_equal(still, again)
 
 
-def test_a_level_gets_a_chart_and_its_maps(fitted: tuple) -> None:
-    retargeter, performance, _ = fitted
-    made = FrameMaps(retargeter, performance[0], 1, MapSize(64, 4))
+def test_a_level_gets_a_chart_and_its_maps(fitted: Fitted) -> None:
+    retargeter, problem, performance, _ = fitted
+    made = FrameMaps(retargeter, problem, None, MapSettings(level=1, pixels=64))
     assert len(made.surface.mesh.faces) == len(retargeter.level_faces(1))
     assert made.maps[0, 0].missed < 0.01 * len(made.maps[0, 0].pixel)
     light, tiles = made.frame(performance[0])
     assert tiles[0, 0].shape == (64, 64, 3)
     assert len(light) == len(made.surface.mesh.vertices)
     with pytest.raises(RetargetError, match="level 4 was asked for, and the method has levels 1 to 3"):
-        FrameMaps(retargeter, performance[0], 4, MapSize(64, 4))
+        FrameMaps(retargeter, problem, None, MapSettings(level=4, pixels=64))
+
+
+def test_a_face_whose_motion_is_turned_off_keeps_its_maps(fitted: Fitted) -> None:
+    retargeter, problem, performance, child = fitted
+    masked = replace(problem, gains=Gains(masks={"all": Mask(np.ones(len(child.face.mesh.vertices)), 0.0)}))
+    made = FrameMaps(retargeter, masked, skin_surface(child), MapSettings(pixels=64))
+    still, lively = (made.frame(frame)[1][0, 0] for frame in (performance[0], performance[len(performance) // 2]))
+    np.testing.assert_allclose(lively, still, atol=1e-5)

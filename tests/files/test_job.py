@@ -12,8 +12,17 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from facial_retarget_addon.core.errors import RetargetError
-from facial_retarget_addon.core.methods.settings import SETTINGS, HierarchicalSettings, RegionGains
-from facial_retarget_addon.files.job import ExampleFiles, FaceFiles, Job, MaskFile, OutputFiles, read_job, write_job
+from facial_retarget_addon.core.methods.settings import SETTINGS, HierarchicalSettings, MapSettings, RegionGains
+from facial_retarget_addon.files.job import (
+    ExampleFiles,
+    FaceFiles,
+    Job,
+    MapOutput,
+    MaskFile,
+    OutputFiles,
+    read_job,
+    write_job,
+)
 
 MINIMAL = """
 version = 1
@@ -88,6 +97,14 @@ def jobs(draw: st.DrawFn, folder: Path) -> Job:
         regions=RegionGains(mouth=draw(st.floats(0, 4)), jaw=draw(st.just(1.0) | st.floats(0, 4))),
         masks=tuple(
             MaskFile(name, path(), draw(st.floats(0, 4))) for name in draw(st.lists(names, unique=True, max_size=2))
+        ),
+        normal_maps=draw(
+            st.none()
+            | st.builds(
+                MapOutput,
+                st.just(folder / "n" / draw(files)),
+                st.builds(MapSettings, level=st.just(0), pixels=st.integers(16, 16384), depth=st.just("exr")),
+            )
         ),
     )
 
@@ -175,6 +192,29 @@ def test_a_gain_that_is_wrong(tmp_path, lines, expected):
     assert expected in str(error.value)
 
 
+@pytest.mark.parametrize(
+    ("lines", "expected"),
+    [
+        ("pixels = 512", "[normal_maps] folder is missing"),
+        ('folder = "maps"\npixels = 5', "[normal_maps] pixels = 5: expected a whole number from 16 to 16384"),
+        ('folder = "maps"\ndepth = "jpeg"', "[normal_maps] depth = 'jpeg': expected one of png8, png16, exr"),
+        ('folder = "maps"\nsize = 5', "[normal_maps] has no setting 'size'"),
+        ('folder = "maps"\nlevel = 5', "[normal_maps] level = 5, expected one of the 4 in [settings], or 0"),
+        ('folder = "source.obj"', "[normal_maps] folder and [source] neutral are one file"),
+    ],
+)
+def test_normal_maps_that_are_wrong(tmp_path, lines, expected):
+    with pytest.raises(RetargetError) as error:
+        read_job(written(tmp_path, MINIMAL.replace("[output]", f"[normal_maps]\n{lines}\n[output]")))
+    assert expected in str(error.value)
+
+
+def test_normal_maps_need_a_method_with_levels(tmp_path):
+    text = MINIMAL.replace('"hierarchical"', '"motion_cloning"')
+    with pytest.raises(RetargetError, match=r"a method with levels, expected one of hierarchical, wavelet, not motion"):
+        read_job(written(tmp_path, text.replace("[output]", '[normal_maps]\nfolder = "maps"\n[output]')))
+
+
 def test_outputs_may_not_replace_inputs_or_each_other(tmp_path):
     text = MINIMAL.replace('frames = "out.npz"', 'frames = "x/../source.obj"\nreport = "r"\npage = "r"')
     with pytest.raises(RetargetError) as error:
@@ -199,6 +239,7 @@ def test_the_example_in_the_documentation_is_a_job(tmp_path):
     assert job.base == tmp_path / "base.json"
     assert job.regions == RegionGains(mouth=0.8, jaw=1.2)
     assert job.masks == (MaskFile("scar", tmp_path / "scar.npz", 0.3),)
+    assert job.normal_maps == MapOutput(tmp_path / "normal_maps", MapSettings())
 
 
 def test_the_documentation_has_every_region_and_its_help():
@@ -207,10 +248,17 @@ def test_the_documentation_has_every_region_and_its_help():
         assert f"| `{field.name}` | {field.metadata['help']} |" in text, "docs/job_file.md is behind the regions"
 
 
-@pytest.mark.parametrize("method", ["hierarchical", "wavelet"])
-def test_the_documentation_has_every_setting_with_its_default_and_help(method):
-    text = DOCUMENT.read_text(encoding="utf-8").split(f"## Settings of `{method}`")[1]
-    for field in fields(SETTINGS[method]):
+@pytest.mark.parametrize(
+    ("heading", "settings_of"),
+    [
+        ("Settings of `hierarchical`", SETTINGS["hierarchical"]),
+        ("Settings of `wavelet`", SETTINGS["wavelet"]),
+        ("Normal maps", MapSettings),
+    ],
+)
+def test_the_documentation_has_every_setting_with_its_default_and_help(heading, settings_of):
+    text = DOCUMENT.read_text(encoding="utf-8").split(f"## {heading}")[1]
+    for field in fields(settings_of):
         default = json.dumps(list(field.default) if isinstance(field.default, tuple) else field.default)
         row = next(line for line in text.splitlines() if line.startswith(f"| `{field.name}` |"))
         assert f"| `{default}` |" in row

@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 
 from ..errors import RetargetError
 
-T = TypeVar("T", bound="Settings | RegionGains")
+T = TypeVar("T", bound="Settings | RegionGains | MapSettings")
 
 
 def _setting(default: Any, help: str, **limits: Any) -> Any:
@@ -162,6 +162,21 @@ class RegionGains:
     cheeks: float = _setting(1.0, "Strength of the motion of the cheeks", low=0.0, high=4.0)
     mouth: float = _setting(1.0, "Strength of the motion of the lips and around them", low=0.0, high=4.0)
     jaw: float = _setting(1.0, "Strength of the motion of chin, jaw, lower teeth and tongue", low=0.0, high=4.0)
+
+
+@dataclass(frozen=True)
+class MapSettings:
+    """How normal maps are made and written."""
+
+    level: int = _setting(0, "Level of the target's normal mesh that the maps are for; 0: its own mesh", low=0, high=6)
+    pixels: int = _setting(1024, "Pixels along each side of a map", low=16, high=16384)
+    margin: int = _setting(8, "Pixels that a map goes on past the borders of the UVs", low=0, high=256)
+    depth: str = _setting(
+        "png16", "What a picture file holds: 8 or 16 bits a channel, or floats", choices=("png8", "png16", "exr")
+    )
+    convention: str = _setting(
+        "opengl", "Green points up, as OpenGL and Blender have it, or down as DirectX", choices=("opengl", "directx")
+    )
 
 
 MASK_GAIN = fields(RegionGains)[0].metadata

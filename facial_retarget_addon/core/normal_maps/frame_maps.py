@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 from scipy.sparse.csgraph import dijkstra
 
 from ..arrays import FloatArray, IntArray, Progress, no_progress
+from ..gained_face import GainedFace
 from ..level_retargeter import LevelRetargeter
 from ..mesh import TriMesh
-from ..raycast import CasterFactory, EmbreeCaster
+from ..methods.settings import MapSettings
+from ..problem import Problem
 from .chart import disc_chart
 from .normal_map import NormalMap, fit_normal_map
 from .surface import TexturedSurface
@@ -23,21 +23,13 @@ Tile = tuple[int, int]
 """Whole u and v of a UDIM tile; (0, 0) is tile 1001."""
 
 
-class MapSize(NamedTuple):
-    """Pixels along each side of a map, and pixels around the covered ones that are filled."""
-
-    pixels: int = 1024
-    margin: int = 8
-
-
 class FrameMaps:
     """Normal maps of frames.
 
     Parameters
     ----------
-    retargeter : the fitted pair.
-    source : (Vs, 3) the source's neutral.
-    light : the light mesh: the target in its neutral, its vertices the first of the retargeter's; or the number of a
+    retargeter : fitted to the problem.
+    surface : the target in its neutral, its vertices the first of the retargeter's; None where the settings name a
         level, which gets a chart of its own.
 
     Attributes
@@ -53,23 +45,26 @@ class FrameMaps:
     def __init__(
         self,
         retargeter: LevelRetargeter,
-        source: FloatArray,
-        light: TexturedSurface | int,
-        size: MapSize,
-        make_caster: CasterFactory = EmbreeCaster,
+        problem: Problem,
+        surface: TexturedSurface | None,
+        settings: MapSettings,
         progress: Progress = no_progress,
     ) -> None:
         self._retargeter = retargeter
-        (positions,), faces = retargeter.detail(np.asarray(source, np.float32)[None])
-        fine = TriMesh(positions, faces)
-        self._own = not isinstance(light, int)
-        self.surface = _level_surface(fine, retargeter.level_faces(light)) if isinstance(light, int) else light
+        (self._rest,), faces = retargeter.detail(problem.source.mesh.vertices.astype(np.float32)[None])
+        fine = TriMesh(self._rest, faces)
+        self._gained = GainedFace(problem.target, problem.gains)
+        self._fine_strength = retargeter.at_finest(self._gained.strength)[:, None].astype(np.float32)
+        self._own = surface is not None
+        self.surface = surface or _level_surface(fine, retargeter.level_faces(settings.level))
         strength = _fade(fine) if self._own else None
         self.maps: dict[Tile, NormalMap] = {}
         found = tiles(self.surface.triangle_uvs)
         for number, tile in enumerate(found):
             progress(number / len(found), "placing the pixels")
-            self.maps[tile] = fit_normal_map(self.surface, fine, size.pixels, tile, size.margin, strength, make_caster)
+            self.maps[tile] = fit_normal_map(
+                self.surface, fine, settings.pixels, tile, settings.margin, strength, problem.make_caster
+            )
 
     def frame(self, source: FloatArray) -> tuple[FloatArray, dict[Tile, FloatArray]]:
         """The light mesh (V, 3) of a source frame (Vs, 3), and each tile's unit normals (size, size, 3).
@@ -77,7 +72,9 @@ class FrameMaps:
         See `NormalMap.vectors`.
         """
         (fine,), _ = self._retargeter.detail(source[None])
-        light = (self._retargeter.frames(source[None])[0] if self._own else fine)[: len(self.surface.mesh.vertices)]
+        fine = self._rest + self._fine_strength * (fine - self._rest)
+        light = self._gained.scale(self._retargeter.frames(source[None]))[0] if self._own else fine
+        light = light[: len(self.surface.mesh.vertices)]
         return light, {tile: held.vectors(light, fine) for tile, held in self.maps.items()}
 
 

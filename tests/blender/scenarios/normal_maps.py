@@ -54,7 +54,7 @@ def tangents_are_blenders() -> None:
     uvs.foreach_get("vector", flat)
     flat[::2] = np.abs(flat[::2] - 0.5)
     uvs.foreach_set("vector", flat)
-    surface = part("bridge.normal_maps").textured_surface(thing)
+    surface = part("files.normal_map_files").textured(part("bridge.meshes").read_face(thing), "suzanne")
     space = part("core.normal_maps.tangents").TangentSpace(surface.mesh.faces, surface.triangle_uvs)
     thing.data.calc_tangents(uvmap=thing.data.uv_layers.active.name)
     theirs, sign = np.empty(3 * len(uvs), np.float32), np.empty(len(uvs), np.float32)
@@ -73,7 +73,7 @@ def maps_of_a_level_are_cycles() -> None:
     """What is written for a level's object is what Cycles bakes from the finest mesh to it, at every frame."""
     pair()
     task = bpy.context.scene.facial_retarget
-    task.normal_maps.light, task.normal_maps.level, task.normal_maps.pixels = "LEVEL", 2, str(SIZE)
+    task.normal_maps.light, task.normal_maps.level, task.normal_maps.pixels = "LEVEL", 2, SIZE
     task.normal_maps.folder, task.normal_maps.margin = str(FOLDER / "level"), 0
     assert bpy.ops.facial_retarget.make_normal_maps() == {"FINISHED"}
     assert sorted(path.name for path in (FOLDER / "level").iterdir()) == [f"normal.000{n}.png" for n in (1, 2, 3)]
@@ -130,7 +130,7 @@ def materials_show_them() -> None:
     """The target's own materials get the nodes once, keep the artist's, and play the sequence."""
     pair()
     task = bpy.context.scene.facial_retarget
-    task.normal_maps.pixels, task.normal_maps.folder = str(SIZE), str(FOLDER / "own")
+    task.normal_maps.pixels, task.normal_maps.folder = SIZE, str(FOLDER / "own")
     own = bpy.data.materials.new("own")
     if bpy.app.version < (5, 0):
         own.use_nodes = True
@@ -140,8 +140,8 @@ def materials_show_them() -> None:
     plain = bpy.data.materials.new("plain")
     for material in (own, plain):
         task.target.data.materials.append(material)
-    for directx in (False, True):
-        task.normal_maps.directx = directx
+    for convention in ("opengl", "directx"):
+        task.normal_maps.convention = convention
         assert bpy.ops.facial_retarget.make_normal_maps() == {"FINISHED"}
         assert shader.inputs["Normal"].links[0].from_node == bump
         nodes = [node for node in plain.node_tree.nodes if node.label == "Facial Retarget Normal Map"]
@@ -151,6 +151,21 @@ def materials_show_them() -> None:
         assert pictures[0].image.colorspace_settings.name == "Non-Color"
         assert pictures[0].image_user.frame_duration == 3
     assert len([path for path in (FOLDER / "own").iterdir() if path.suffix == ".png"]) == 3
+
+
+def a_job_carries_them() -> None:
+    """What the panel says of the maps comes back from a saved job."""
+    pair()
+    task = bpy.context.scene.facial_retarget
+    maps = task.normal_maps
+    maps.folder, maps.pixels, maps.convention, maps.light, maps.level = str(FOLDER / "jobs"), 300, "directx", "LEVEL", 3
+    path = FOLDER / "job.toml"
+    assert bpy.ops.facial_retarget.save_job(filepath=str(path)) == {"FINISHED"}
+    assert "[normal_maps]" in path.read_text()
+    maps.folder, maps.pixels, maps.convention, maps.light, maps.level = "", 512, "opengl", "TARGET", 2
+    assert bpy.ops.facial_retarget.load_job(filepath=str(path)) == {"FINISHED"}
+    assert (maps.folder, maps.pixels, maps.convention) == (str(FOLDER / "jobs"), 300, "directx")
+    assert (maps.light, maps.level) == ("LEVEL", 3)
 
 
 def what_cannot_be_done_is_said() -> None:
@@ -174,7 +189,7 @@ def what_cannot_be_done_is_said() -> None:
         bpy.ops.facial_retarget.make_normal_maps()
     task.normal_maps.light = "TARGET"
     task.target.data.uv_layers.remove(task.target.data.uv_layers.active)
-    with refused("child", "no UV map"):
+    with refused("child", "no texture coordinates"):
         bpy.ops.facial_retarget.make_normal_maps()
     task.method = "motion_cloning"
     with refused("no levels"):
@@ -186,4 +201,5 @@ def what_cannot_be_done_is_said() -> None:
 tangents_are_blenders()
 maps_of_a_level_are_cycles()
 materials_show_them()
+a_job_carries_them()
 what_cannot_be_done_is_said()
