@@ -181,6 +181,36 @@ def template_x(name: str) -> float:
     return float(template.places[template.rows([name])[0], 0])
 
 
+class TestPieces:
+    """Heads come in pieces."""
+
+    def test_vertices_that_are_not_welded(self) -> None:
+        face = built_in("actor")
+        corners = face.mesh.faces.ravel()
+        mesh = TriMesh(face.mesh.vertices[corners], np.arange(len(corners)).reshape(-1, 3))
+        first = np.full(len(face.mesh.vertices), -1)
+        first[corners[::-1]] = np.arange(len(corners))[::-1]
+        apart = FeaturePoints(face.points.names, first[face.points.vertices], face.points.weights)
+        found = Predictor(mesh).predict(apart.subset(FIVE), apart.names)
+        there = predictor("actor").predict(face.points.subset(FIVE), face.points.names)
+        gaps = np.linalg.norm(found.positions(mesh.vertices) - there.positions(face.mesh.vertices), axis=1)
+        assert np.median(gaps) < 0.01 * eye_separation(face.mesh, face.points)
+
+    def test_hair_over_the_head(self) -> None:
+        face = built_in("actor")
+        around = np.random.default_rng(2).normal(size=(3000, 3))
+        around /= np.linalg.norm(around, axis=1, keepdims=True)
+        faces = outwards(around)
+        faces = faces[(around[faces].mean(axis=1) @ [0.0, 1.0, -1.0]) > 0.1]
+        hair = around * 1.5 + [0.0, 0.3, -0.5]
+        mesh = TriMesh(
+            np.concatenate([face.mesh.vertices, hair]),
+            np.concatenate([face.mesh.faces, faces + len(face.mesh.vertices)]),
+        )
+        found = guess_points(mesh, face.points.names)
+        assert np.median(errors(Face(mesh, face.points), found.points)) < 0.10
+
+
 class TestRealHeads:
     """Heads by several artists; the average face was measured on them, so that the bench leaves each out in turn."""
 

@@ -5,27 +5,32 @@ from __future__ import annotations
 import numpy as np
 
 from ..acting.eyeballs import ROUND, WRAPS, fit_sphere
-from ..arrays import BoolArray, FloatArray, cross, unit_vectors
+from ..arrays import BoolArray, FloatArray, IntArray, cross, unit_vectors
 from ..mesh import TriMesh
 from ..raycast import CasterFactory
+from .pieces import members
 
 TURNS = 5
 """Ways out that are tried around a face's normal, beside the normal itself."""
 LEAN = np.radians(50.0)
 """How far these lean away from it."""
 LARGE = 0.05
-"""Share of the mesh's area from which a component hides what is behind it."""
+"""Share of the mesh's area from which a piece hides what is behind it."""
 FEWEST = 12
 """Vertices of an eyeball, at least."""
 _LIFT = 1e-4
 
 
-def seen_from_outside(mesh: TriMesh, make_caster: CasterFactory) -> BoolArray:
+def seen_from_outside(mesh: TriMesh, pieces: IntArray, make_caster: CasterFactory) -> BoolArray:
     """(F,) true for faces from whose middle some straight way leads out of the mesh, on their outer side.
 
-    Only large components and eyeballs stand in the way: lashes hide nothing.
+    Only large pieces and eyeballs stand in the way: lashes hide nothing.
+
+    Parameters
+    ----------
+    pieces : (V,) labels of the pieces.
     """
-    solid = _solid(mesh)
+    solid = _solid(mesh, pieces)
     caster = make_caster(TriMesh(mesh.vertices, mesh.faces[solid[mesh.faces[:, 0]]]))
     normal = mesh.face_normals
     corners = mesh.vertices[mesh.faces]
@@ -39,19 +44,18 @@ def seen_from_outside(mesh: TriMesh, make_caster: CasterFactory) -> BoolArray:
     return seen
 
 
-def _solid(mesh: TriMesh) -> BoolArray:
-    """(V,) vertices of components that hide what is behind them."""
-    labels = mesh.components
-    areas = np.bincount(labels, mesh.vertex_areas)
-    large = areas >= LARGE * areas.sum()
-    for component in np.flatnonzero(~large & (areas > 0)):
-        large[component] = is_ball(mesh.vertices[labels == component])
-    solid: BoolArray = large[labels]
-    return solid
+def _solid(mesh: TriMesh, pieces: IntArray) -> BoolArray:
+    """(V,) vertices of pieces that hide what is behind them."""
+    areas = np.bincount(pieces, mesh.vertex_areas)
+    solid = areas >= LARGE * areas.sum()
+    for piece, own in enumerate(members(pieces)):
+        solid[piece] = solid[piece] or is_ball(mesh.vertices[own])
+    hiding: BoolArray = solid[pieces]
+    return hiding
 
 
 def is_ball(positions: FloatArray) -> bool:
-    """Whether the vertices (n, 3) of a component are those of an eyeball, or of the front half of one."""
+    """Whether the vertices (n, 3) of a piece are those of an eyeball, or of the front half of one."""
     if len(positions) < FEWEST:
         return False
     middle, radius = fit_sphere(positions)

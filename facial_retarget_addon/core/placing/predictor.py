@@ -22,6 +22,7 @@ from .guess import FoundFace, find_face
 from .openings import believed_landmarks
 from .outside import is_ball, seen_from_outside
 from .partners import across, closest_mirror
+from .pieces import members, pieces_of
 from .skin import Skin, closest_looking
 from .template import Template, face_template, partner
 
@@ -34,7 +35,7 @@ LEAST = 3
 NO_FACE = 0.35
 """A surface that is this unlike the average face is none."""
 MOST_SKINS, LEAST_SKIN = 3, 0.1
-"""Components on which a face is looked for: how many of the largest, and the least share of the mesh's area."""
+"""Pieces on which a face is looked for: how many of the largest, and the least share of the mesh's area."""
 PUPILS = ("3.5", "3.6")
 BALL, BALL_OFF, BALL_SIZES = 0.2, 0.25, (0.1, 0.5)
 """Of eyeballs: how far behind the pupil the centre is expected, how far it may be off, and which radii count."""
@@ -70,12 +71,13 @@ class Predictor:
         self._mesh = mesh.checked("the face")
         self._template = template or face_template()
         self._make_caster = make_caster
-        self._outside = seen_from_outside(mesh, make_caster)
+        self._pieces = pieces_of(mesh)
+        self._outside = seen_from_outside(mesh, self._pieces, make_caster)
         self._skins: dict[tuple[int, ...], Skin] = {}
 
     def prepare(self) -> None:
         """Work out beforehand what the first prediction and the first mirroring on the largest piece would wait for."""
-        areas = np.bincount(self._mesh.components[self._mesh.faces[:, 0]], self._mesh.face_areas)
+        areas = np.bincount(self._pieces, self._mesh.vertex_areas)
         skin = self._skin(np.array([areas.argmax()]))
         for _ in (skin.finder, skin.whole, skin.view, skin.samples, skin.exact_mirrors, self._best_face):
             pass
@@ -142,7 +144,7 @@ class Predictor:
         on_skin = known.subset([name for name in known.names if name not in PUPILS]) if names else known
         if not len(on_skin):
             on_skin = known
-        skin = self._skin(np.unique(self._mesh.components[on_skin.holders]))
+        skin = self._skin(np.unique(self._pieces[on_skin.holders]))
         where = dict(zip(known.names, known.positions(self._mesh.vertices), strict=True))
         unit = self._unit(on_skin)
         mirror = closest_mirror(skin.exact_mirrors, where)
@@ -198,7 +200,7 @@ class Predictor:
             face, skin = self._face
             pose, rough = face.fit.pose, face.fit
         else:
-            skin = self._skin(np.unique(self._mesh.components[told.holders]))
+            skin = self._skin(np.unique(self._pieces[told.holders]))
             pose = fit_similarity(template.places[rows], places)
             rough = fit_face(template, pose, rows, places, np.full(len(rows), EXACT), skin.samples)
         pose = fit_similarity(template.places, rough.places)
@@ -235,17 +237,18 @@ class Predictor:
     def _best_face(self) -> tuple[FoundFace, Skin]:
         """What is most like a face, however little."""
         mesh = self._mesh
-        areas = np.bincount(mesh.components, mesh.vertex_areas)
+        areas = np.bincount(self._pieces, mesh.vertex_areas)
         large = np.argsort(-areas, kind="stable")[:MOST_SKINS]
         skins = [self._skin(np.array([one])) for one in large if areas[one] >= LEAST_SKIN * areas.sum()]
         found = [(find_face(self._template, skin, self._make_caster), skin) for skin in skins]
         return min(found, key=lambda pair: pair[0].unlike)
 
-    def _skin(self, components: IntArray) -> Skin:
-        """Of some components of the mesh."""
-        key = tuple(int(component) for component in components)
+    def _skin(self, pieces: IntArray) -> Skin:
+        """Of some pieces of the mesh, by their labels."""
+        key = tuple(int(piece) for piece in pieces)
         if key not in self._skins:
-            self._skins[key] = Skin(self._mesh, components, self._outside, self._make_caster)
+            faces = np.flatnonzero(np.isin(self._pieces[self._mesh.faces[:, 0]], pieces))
+            self._skins[key] = Skin(self._mesh, faces, self._outside, self._make_caster)
         return self._skins[key]
 
     def _on_skin(self, fit: FaceFit, landmarks: FeaturePoints, skin: Skin, names: Sequence[str]) -> FeaturePoints:
@@ -272,15 +275,14 @@ class Predictor:
 
     @cached_property
     def _balls(self) -> list[_Ball]:
-        """Components that are round as eyeballs are."""
+        """Pieces that are round as eyeballs are."""
         mesh = self._mesh
-        owner = mesh.components[mesh.faces[:, 0]]
-        balls = []
-        for component in np.unique(owner):
-            own = np.flatnonzero(mesh.components == component)
-            if is_ball(mesh.vertices[own]):
-                balls.append(_Ball(*fit_sphere(mesh.vertices[own]), np.flatnonzero(owner == component)))
-        return balls
+        owner = self._pieces[mesh.faces[:, 0]]
+        return [
+            _Ball(*fit_sphere(mesh.vertices[own]), np.flatnonzero(owner == piece))
+            for piece, own in enumerate(members(self._pieces))
+            if is_ball(mesh.vertices[own]) and (owner == piece).any()
+        ]
 
 
 def guess_points(mesh: TriMesh, wanted: Sequence[str], make_caster: CasterFactory = EmbreeCaster) -> Guess:

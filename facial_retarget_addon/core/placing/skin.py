@@ -31,12 +31,12 @@ COVERED = 0.3
 
 
 class Skin:
-    """The components of a mesh that hold its feature points."""
+    """The pieces of a mesh that hold its feature points."""
 
-    def __init__(self, mesh: TriMesh, components: IntArray, outside: BoolArray, make_caster: CasterFactory) -> None:
-        """Of the components with these labels of `mesh.components`; outside : (F,) faces seen from outside."""
+    def __init__(self, mesh: TriMesh, faces: IntArray, outside: BoolArray, make_caster: CasterFactory) -> None:
+        """Of these faces (S,); outside : (F,) those of the mesh that are seen from outside."""
         self._mesh, self._outside, self._make_caster = mesh, outside, make_caster
-        self._faces = np.flatnonzero(np.isin(mesh.components[mesh.faces[:, 0]], components))
+        self._faces = faces
 
     @cached_property
     def finder(self) -> SurfaceFinder:
