@@ -73,6 +73,14 @@ def is_baked(thing: Object, frame: int) -> bool:
     return keys is not None and BAKED_KEY.format(frame) in keys.key_blocks
 
 
+def found_face(context: Context) -> Object | None:
+    """The face whose findings the report shows: the active object if it has any, or else the target."""
+    for thing in (context.active_object, context.scene.facial_retarget.target):
+        if thing is not None and thing.type == "MESH" and thing.facial_retarget.findings_text:
+            return thing
+    return None
+
+
 def wanted_points(task: PropertyGroup) -> int:
     """Feature points that both faces must have in common: few where the artist's own base mesh says which."""
     return FEWEST_POINTS if task.base is not None else least_points(SETTINGS[task.method])

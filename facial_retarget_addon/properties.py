@@ -146,6 +146,31 @@ def _has_stale_points(face: PropertyGroup) -> bool:
     return has_stale_points(face.id_data)
 
 
+def _show_finding(face: PropertyGroup, context: Context) -> None:
+    """Go to what was clicked in the list."""
+    from .bridge.findings import show_finding
+
+    show_finding(context.scene, face.id_data)
+
+
+class FACIAL_RETARGET_PG_finding(PropertyGroup):
+    """A baked frame or a cloned shape key that is in trouble. `name` is inherited."""
+
+    kind: EnumProperty(
+        items=[("FRAME", "Frame", "A baked frame"), ("KEY", "Shape Key", "A cloned shape key")],
+        description="What is in trouble",
+    )
+    frame: IntProperty(name="Frame", description="The scene frame")
+    note: StringProperty(name="Figures", description="What is wrong, in words")
+    trouble: FloatProperty(name="Trouble", description="All figures together, by which the worst come first")
+    torn: IntProperty(name="Torn Edges", description="Edges stretched beyond 3 times where the source is calm")
+    turned: IntProperty(name="Turned Triangles", description="Triangles that look inwards where the source's do not")
+    lip_gap: FloatProperty(name="Lip Gap", description="More than the source's, in percent of the mouth's width")
+    lid_gap: FloatProperty(name="Lid Gap", description="More than the source's, in percent of the eye's opening")
+    torn_vertices: StringProperty(description="Vertices of the torn edges, packed")
+    turned_vertices: StringProperty(description="Vertices of the turned triangles, packed")
+
+
 class FACIAL_RETARGET_PG_face(PropertyGroup):
     """What an object knows as a face."""
 
@@ -178,6 +203,17 @@ class FACIAL_RETARGET_PG_face(PropertyGroup):
     active_cloned: IntProperty(
         name="Active Cloned Shape Key", description="The cloned shape key that is chosen in the list"
     )
+    findings: CollectionProperty(type=FACIAL_RETARGET_PG_finding, description="Frames and shape keys in trouble")
+    active_finding: IntProperty(
+        name="Active finding",
+        update=_show_finding,
+        description="Click to go to the frame, or to set the shape key to 1",
+    )
+    findings_text: StringProperty(name="Findings", description="What was found, in words")
+    findings_vertices: IntProperty(description="How many vertices the object had when this was found")
+    findings_source: PointerProperty(type=Object, description="The source of the baked frames")
+    counterpart: StringProperty(description="The source's vertex for each of the head's vertices, packed")
+    shown_key: StringProperty(description="The shape key that a click in the list has set to 1")
     head: PointerProperty(name="Head", type=Object, description="The empty that shows how the head turns")
 
     @property
@@ -407,6 +443,21 @@ class FACIAL_RETARGET_PG_overlay(PropertyGroup):
         name="Base Mesh",
         description="Show the triangles between the points on source and target; those that fold over stand out",
     )
+    show_heat: BoolProperty(name="Heat Map", description="Show a figure of each vertex of the target as colour")
+    heat: EnumProperty(
+        name="Figure",
+        items=[
+            ("STRETCH", "Stretch", "How many times its neutral length the most stretched edge at a vertex has"),
+            ("BEYOND", "Beyond the Source", "Stretch over the source's at the same place; needs a retargeting"),
+            (
+                "MOTION",
+                "Motion Difference",
+                "How far a vertex is from where the source's motion, turned and scaled as the heads are, would take "
+                "it; a method that fits other proportions differs on purpose. Needs a retargeting",
+            ),
+        ],
+        description="What the colours of the heat map show",
+    )
     show_diagram: BoolProperty(
         name="Diagram",
         default=True,
@@ -531,6 +582,7 @@ CLASSES = (
     FACIAL_RETARGET_PG_part,
     FACIAL_RETARGET_PG_origin,
     FACIAL_RETARGET_PG_cloned_key,
+    FACIAL_RETARGET_PG_finding,
     FACIAL_RETARGET_PG_face,
     FACIAL_RETARGET_PG_example,
     FACIAL_RETARGET_PG_sculpting,

@@ -40,6 +40,7 @@ CLASSES = (
     bake_export.FACIAL_RETARGET_PT_export,
     normal_maps.FACIAL_RETARGET_PT_normal_maps,
     bake_export.FACIAL_RETARGET_PT_job,
+    report.FACIAL_RETARGET_UL_findings,
     report.FACIAL_RETARGET_PT_report,
     more.FACIAL_RETARGET_PT_more,
     cloning.FACIAL_RETARGET_UL_cloned,

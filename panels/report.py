@@ -1,12 +1,28 @@
-"""What the figures of a retargeting say."""
+"""What a retargeting or cloning found wrong, the worst first."""
 
-from bpy.types import Context, Panel
+from bpy.types import Context, Panel, PropertyGroup, UILayout, UIList
 
-from .tab import Step
+from ..facial_retarget_addon import guide
+from .tab import Step, draw_text
+
+ICONS = {"FRAME": "KEYFRAME", "KEY": "SHAPEKEY_DATA"}
+"""Kind of a finding -> its icon."""
+
+
+class FACIAL_RETARGET_UL_findings(UIList):
+    """A frame or shape key, and what is wrong with it."""
+
+    def draw_item(
+        self, context: Context, layout: UILayout, data: object, item: PropertyGroup, icon: int, active: object
+    ) -> None:
+        """Draw a row."""
+        row = layout.split(factor=0.35)
+        row.label(text=item.name, icon=ICONS[item.kind], translate=False)
+        row.label(text=item.note)
 
 
 class FACIAL_RETARGET_PT_report(Step, Panel):
-    """Where the report goes."""
+    """Frames and shape keys in trouble, and where the figures go."""
 
     bl_label = "6. Report"
     bl_order = 6
@@ -16,7 +32,27 @@ class FACIAL_RETARGET_PT_report(Step, Panel):
     def draw(self, context: Context) -> None:
         """Draw the panel."""
         layout = self.layout
-        layout.use_property_split, layout.use_property_decorate = True, False
         task = context.scene.facial_retarget
-        layout.prop(task, "report")
-        layout.prop(task, "page")
+        thing = guide.found_face(context)
+        if thing is None:
+            layout.label(text="Retarget or clone first", icon="INFO")
+        else:
+            self._draw_findings(layout, context, thing.facial_retarget)
+        column = layout.column(align=True)
+        column.prop(task.overlay, "show_heat")
+        figure = column.row()
+        figure.active = task.overlay.show_heat
+        figure.prop(task.overlay, "heat", text="")
+        column = layout.column()
+        column.use_property_split, column.use_property_decorate = True, False
+        column.prop(task, "report")
+        column.prop(task, "page")
+
+    def _draw_findings(self, layout: UILayout, context: Context, face: PropertyGroup) -> None:
+        draw_text(layout, context, f"{face.id_data.name}: {face.findings_text}")
+        if not len(face.findings):
+            return
+        layout.template_list("FACIAL_RETARGET_UL_findings", "", face, "findings", face, "active_finding", rows=5)
+        row = layout.row(align=True)
+        row.operator("facial_retarget.select_trouble", text="Select Torn").kind = "TORN"
+        row.operator("facial_retarget.select_trouble", text="Select Turned").kind = "TURNED"

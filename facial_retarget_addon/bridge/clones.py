@@ -9,10 +9,12 @@ from typing import Any, NamedTuple
 
 from bpy.types import Object
 
+from ..core.quality import Spots
 from ..core.shapes.shape_set import ShapeSet
 from .clone_report import figures_note, worst_first
 from .clone_wishes import Origin
 from .donors import Donor
+from .findings import Finding, write_key_findings
 from .head_shapes import Plan, put_shapes
 from .heads import Head
 from .key_animation import copy_animation
@@ -33,13 +35,15 @@ class Clones:
     """Shapes for a head, before they are written.
 
     origins : name of a shape -> where it comes from.
-    rows : name of a shape -> its figures. report : of all, as `core.shapes.clone` gives it.
+    rows, spots : name of a shape -> its figures, and where it is in trouble.
+    report : of all, as `core.shapes.clone` gives it.
     """
 
     head: Head
     shapes: ShapeSet
     origins: Mapping[str, Origin]
     rows: Mapping[str, Mapping[str, Any]]
+    spots: Mapping[str, Spots]
     report: dict[str, Any]
 
     @property
@@ -79,6 +83,8 @@ def write_shapes(clones: Clones, plan: Plan, traits: Mapping[str, KeyTraits]) ->
     """Put shapes on their head as `put_shapes`, and list them."""
     written = put_shapes(clones.head, clones.shapes, plan, traits)
     _remember(clones, plan)
+    found = {name: Finding(clones.rows[shape], clones.spots[shape]) for name, shape in plan.items()}
+    write_key_findings(clones.head.things[0], found)
     return written
 
 

@@ -112,7 +112,7 @@ def cloner(
         share = left_share(donor.face.mesh, donor.face.points, how.feather) if how.split else None
         ready = prepare_shapes(shapes, how, share)
         cloned = clone_shapes(method, problem, settings, ready.shapes, ready.correctives, progress).only(ready.wanted)
-        return Clones(head, cloned.shapes, origins(names, how), row_of(cloned), cloned.report)
+        return Clones(head, cloned.shapes, origins(names, how), row_of(cloned), cloned.spots, cloned.report)
 
     return clone
 

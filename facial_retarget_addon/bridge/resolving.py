@@ -154,7 +154,7 @@ def solver(
         shapes = ShapeSet(tuple(wanted), moves)
         solved = resolve_shapes(method, problem, settings, shapes, corrected, correctives, progress)
         solved = solved.only([name for name in origins if name not in corrected.names])
-        return Clones(head, solved.shapes, origins, row_of(solved), solved.report)
+        return Clones(head, solved.shapes, origins, row_of(solved), solved.spots, solved.report)
 
     return solve
 

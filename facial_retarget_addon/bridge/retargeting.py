@@ -15,6 +15,7 @@ from ..files.pages.report import report_json, report_page
 from ..files.whole import written_whole
 from .background import Steps, in_thread, part
 from .bake import write_head_frames
+from .findings import write_frame_findings
 from .heads import head_parts, read_head
 from .key_sets import check_targets
 from .level_object import show_levels
@@ -58,6 +59,7 @@ def retarget_steps(context: Context) -> Steps[dict[str, Any]]:
     yield READING + COMPUTING, "Writing"
     _write_report(task, result, page)
     write_head_frames(head, result.frames, frames.start)
+    write_frame_findings(task.target, task.source, result, frames.start)
     return result.report
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 
@@ -11,6 +12,13 @@ from .arrays import FloatArray, IntArray
 from .defects import Defects
 from .mesh import TriMesh
 from .seams.gaps import SeamGaps
+
+
+class Spots(NamedTuple):
+    """Where a frame is in trouble: the vertices (n,) of its torn edges, and those of its turned triangles."""
+
+    torn: IntArray
+    turned: IntArray
 
 
 @dataclass(eq=False)
@@ -32,15 +40,19 @@ class Quality:
     flipped: list[int] = field(default_factory=list)
     largest: list[float] = field(default_factory=list)
     gaps: dict[str, list[float]] = field(default_factory=dict)
+    spots: list[Spots] = field(default_factory=list)
     drift: float = 0.0
 
     def add(self, source_frames: FloatArray, target_frames: FloatArray) -> None:
         """Measure frames (F, Vs, 3) of the source and (F, Vt, 3) of the target."""
         rest = self.target.vertices.astype(np.float32)
         for before, after in zip(source_frames, target_frames, strict=True):
-            self.torn.append(int(self._defects.torn(after, self._defects.calm(before)).sum()))
+            torn = self._defects.torn(after, self._defects.calm(before))
             also = self._defects.turned_at_counterpart(before)[self.target.faces].any(axis=1)
-            self.flipped.append(int((self._defects.turned(after) & ~also).sum()))
+            turned = self._defects.turned(after) & ~also
+            self.torn.append(int(torn.sum()))
+            self.flipped.append(int(turned.sum()))
+            self.spots.append(Spots(np.unique(self.target.edges[torn]), np.unique(self.target.faces[turned])))
             moved = np.sqrt(np.square(after - rest).sum(axis=1).max(initial=0.0))
             self.largest.append(float(moved))
             if np.array_equal(before, self.source.vertices.astype(np.float32)):

@@ -9,7 +9,7 @@ from typing import Any, cast
 
 import numpy as np
 
-from .arrays import FloatArray, Progress, no_progress, progress_part
+from .arrays import FloatArray, IntArray, Progress, no_progress, progress_part
 from .checks import faults, warnings
 from .errors import RetargetError
 from .gained_face import GainedFace
@@ -17,7 +17,7 @@ from .level_retargeter import LevelMotion, LevelRetargeter, LevelsOf
 from .methods.base import Retargeter, fit
 from .methods.settings import LEVELED, Settings
 from .problem import Problem
-from .quality import Quality
+from .quality import Quality, Spots
 from .seams.gaps import SeamGaps
 
 BLOCK = 16
@@ -32,7 +32,8 @@ class Result:
     ----------
     frames : (F, Vt, 3) float32 in the target's units.
     report : plain data.
-    per_frame : the figures of each frame.
+    per_frame : the figures of each frame. spots : where each is in trouble.
+    counterpart : (Vt,) the source vertex nearest to each target vertex's counterpart, -1 for none.
     levels : what each level adds to the motion of source frames (F, Vs, 3); None for a method without levels.
     leveled : what was fitted, before the gains; None for a method without levels.
     """
@@ -40,6 +41,8 @@ class Result:
     frames: FloatArray
     report: dict[str, Any]
     per_frame: Mapping[str, Sequence[float]]
+    spots: Sequence[Spots]
+    counterpart: IntArray
     levels: LevelsOf | None = None
     leveled: LevelRetargeter | None = None
 
@@ -97,7 +100,7 @@ def retarget(
     }
     leveled = retargeter if isinstance(retargeter, LevelRetargeter) else None
     levels = None if leveled is None else _gained_levels(leveled, gained)
-    return Result(result, report, quality.per_frame(), levels, leveled)
+    return Result(result, report, quality.per_frame(), quality.spots, retargeter.counterpart, levels, leveled)
 
 
 def checked_fit(method: str, problem: Problem, settings: Settings, progress: Progress = no_progress) -> Retargeter:

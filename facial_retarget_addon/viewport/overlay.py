@@ -9,16 +9,18 @@ from bpy.types import Context, Object, SpaceView3D
 from mathutils import Matrix
 
 from ..core.point_sets import point_label
-from . import base
-from .base import base_batches, trouble
+from . import base, heat, trouble
+from .base import base_batches
 from .diagram import draw_diagram
 from .faces import FaceMarks, face_marks, forget, shown_faces
+from .heat import draw_heat, draw_legend, heated
 from .hover import hovered
 from .labels import Label, draw_labels, draw_trouble, spread_labels
 from .lines import draw_lines
 from .marks import COLOURS, DOUBTFUL, draw_marks
 from .projection import screen_places
 from .shaders import linear
+from .trouble import draw_trouble_spots
 
 LINE, WARNING = linear(0.86, 0.92, 0.98), COLOURS[DOUBTFUL]
 """Of the base mesh, and of its triangles that fold over."""
@@ -32,20 +34,27 @@ def _shows(context: Context) -> bool:
 
 
 def _draw_places() -> None:
-    """In the world: the base mesh, and the marks over it."""
+    """In the world: the heat map, the base mesh, and the marks over it."""
     context = bpy.context
     wanted = context.scene.facial_retarget.overlay
-    if not ((wanted.show_points or wanted.show_base) and _shows(context)):
+    if not ((wanted.show_points or wanted.show_base or wanted.show_heat) and _shows(context)):
         return
     view, projection = gpu.matrix.get_model_view_matrix(), gpu.matrix.get_projection_matrix()
+    if wanted.show_heat and (hot := heated(context)) is not None:
+        draw_heat(context, hot, view, projection)
+        draw_trouble_spots(context, hot, view, projection)
     for thing in shown_faces(context):
         if wanted.show_base:
             _draw_base(context, thing, view, projection)
-        marks = face_marks(context, thing)
-        if wanted.show_points and len(marks.names):
-            hot = hovered().row if hovered().thing == thing.session_uid else -1
-            size = marks.mark_size(context, max(thing.dimensions))
-            draw_marks(marks.batch, view, projection, size, hot, flat=False)
+        if wanted.show_points:
+            _draw_marks(context, thing, view, projection)
+
+
+def _draw_marks(context: Context, thing: Object, view: Matrix, projection: Matrix) -> None:
+    marks = face_marks(context, thing)
+    if len(marks.names):
+        hot = hovered().row if hovered().thing == thing.session_uid else -1
+        draw_marks(marks.batch, view, projection, marks.mark_size(context, max(thing.dimensions)), hot, flat=False)
 
 
 def _draw_base(context: Context, thing: Object, view: Matrix, projection: Matrix) -> None:
@@ -70,8 +79,10 @@ def _draw_pixels() -> None:
         _draw_names(context, scale, wanted.show_names)
     if wanted.show_diagram:
         draw_diagram(context)
-    if wanted.show_base:
-        draw_trouble(context, trouble())
+    troubles = [base.trouble()] if wanted.show_base else []
+    if wanted.show_heat and (hot := heated(context)) is not None:
+        troubles.append(draw_legend(context, hot))
+    draw_trouble(context, next(filter(None, troubles), ""))
 
 
 def _draw_names(context: Context, scale: float, every: bool) -> None:
@@ -111,7 +122,8 @@ def _full_name(marks: FaceMarks, row: int) -> str:
 @persistent
 def _forget(*_: object) -> None:
     forget()
-    base.forget()
+    for part in (base, heat, trouble):
+        part.forget()
 
 
 def register() -> None:

@@ -58,6 +58,36 @@ void main()
 }
 """
 
+_HEAT_VERTEX = """
+void main()
+{
+  vec4 place = matrix * vec4(pos, 1.0);
+  heat = value;
+  /* Toward the viewer by a pixel or two, or the surface would show through in spots. */
+  float nearer = 3.0 * place.w / (viewport.y * lens.x);
+  float depth = (place.z + lens.y * nearer) / max(place.w + lens.z * nearer, 1e-6);
+  gl_Position = vec4(place.xy, max(depth, -1.0) * place.w, place.w);
+}
+"""
+
+RAMP = ((1.0, 0.93, 0.35), (1.0, 0.62, 0.10), (0.90, 0.16, 0.10), (0.45, 0.0, 0.35))
+"""Colours of the heat map from little to much, as they are picked on a screen: each is darker than the one before."""
+
+_HEAT_FRAGMENT = """
+void main()
+{
+  float share = clamp((heat - low) / (high - low), 0.0, 1.0);
+  float alpha = 0.8 * clamp(share / 0.25, 0.0, 1.0);
+  if (!(alpha > 0.01)) {
+    discard;
+  }
+  float place = 3.0 * share;
+  vec3 colour = mix(mix(mix(RAMP_0, RAMP_1, clamp(place, 0.0, 1.0)), RAMP_2, clamp(place - 1.0, 0.0, 1.0)), RAMP_3,
+                    clamp(place - 2.0, 0.0, 1.0));
+  fragColor = vec4(colour * alpha, alpha);
+}
+"""
+
 _MARK_FRAGMENT = """
 vec4 paint;
 
@@ -167,6 +197,28 @@ def line_shader() -> GPUShader:
     info.fragment_out(0, "VEC4", "fragColor")
     info.vertex_source(_LINE_VERTEX)
     info.fragment_source(_LINE_FRAGMENT)
+    return gpu.shader.create_from_info(info)
+
+
+@cache
+def heat_shader() -> GPUShader:
+    """Triangles at `pos` whose colour says the `value` between `low` and `high`; below `low` nothing is drawn."""
+    info = GPUShaderCreateInfo()
+    info.push_constant("MAT4", "matrix")
+    info.push_constant("VEC3", "lens")
+    info.push_constant("VEC2", "viewport")
+    info.push_constant("FLOAT", "low")
+    info.push_constant("FLOAT", "high")
+    info.vertex_in(0, "VEC3", "pos")
+    info.vertex_in(1, "FLOAT", "value")
+    passed = GPUStageInterfaceInfo("facial_retarget_heat")
+    passed.smooth("FLOAT", "heat")
+    info.vertex_out(passed)
+    for number, colour in enumerate(RAMP):
+        info.define(f"RAMP_{number}", "vec3({:.5f}, {:.5f}, {:.5f})".format(*linear(*colour)))
+    info.fragment_out(0, "VEC4", "fragColor")
+    info.vertex_source(_HEAT_VERTEX)
+    info.fragment_source(_HEAT_FRAGMENT)
     return gpu.shader.create_from_info(info)
 
 

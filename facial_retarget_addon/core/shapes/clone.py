@@ -13,6 +13,7 @@ from ..errors import RetargetError
 from ..methods.settings import Settings
 from ..points import common_names
 from ..problem import Problem
+from ..quality import Spots
 from ..retarget import retarget
 from ..rigid import fit_similarity
 from .choose import listed
@@ -38,12 +39,14 @@ class ClonedShapes:
         combination, which `with` names.
     report : of the fit and the retargeting, as plain data, with `warnings`.
     without_counterpart : shapes that move the source and not the target -> why.
+    spots : where each shape is in trouble, by its name; of a corrective, where the combination is.
     """
 
     shapes: ShapeSet
     rows: list[dict[str, Any]]
     report: dict[str, Any]
     without_counterpart: dict[str, str]
+    spots: Mapping[str, Spots]
 
     def only(self, names: Sequence[str]) -> ClonedShapes:
         """These shapes alone, in this order; the report's other figures stay those of all."""
@@ -51,7 +54,7 @@ class ClonedShapes:
         rows = [row[name] for name in names]
         lost = {name: why for name, why in self.without_counterpart.items() if name in names}
         report = {**self.report, "shapes": rows, "without_counterpart": lost}
-        return ClonedShapes(self.shapes.subset(names), rows, report, lost)
+        return ClonedShapes(self.shapes.subset(names), rows, report, lost, {name: self.spots[name] for name in names})
 
 
 def clone_shapes(
@@ -115,7 +118,7 @@ def clone_shapes(
     ]
     report = {**result.report, "warnings": warnings, "shapes": rows, "without_counterpart": lost}
     progress(1.0, "done")
-    return ClonedShapes(alone, rows, report, lost)
+    return ClonedShapes(alone, rows, report, lost, dict(zip(shapes.names, result.spots, strict=True)))
 
 
 def _stilled(shapes: ShapeSet, names: Sequence[str]) -> ShapeSet:
