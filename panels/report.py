@@ -9,16 +9,25 @@ ICONS = {"FRAME": "KEYFRAME", "KEY": "SHAPEKEY_DATA"}
 """Kind of a finding -> its icon."""
 
 
+COLUMNS = (("Torn", "torn"), ("Turned", "turned"), ("Lips %", "lip_gap"), ("Lids %", "lid_gap"))
+"""Heading of a column -> the figure that stands in it."""
+NAMES = 0.34
+"""Share of a row that the name takes."""
+
+
 class FACIAL_RETARGET_UL_findings(UIList):
-    """A frame or shape key, and what is wrong with it."""
+    """A frame or shape key, and its figures; what is 0 stays empty."""
 
     def draw_item(
         self, context: Context, layout: UILayout, data: object, item: PropertyGroup, icon: int, active: object
     ) -> None:
         """Draw a row."""
-        row = layout.split(factor=0.35)
+        row = layout.split(factor=NAMES)
         row.label(text=item.name, icon=ICONS[item.kind], translate=False)
-        row.label(text=item.note)
+        figures = row.row()
+        for _, name in COLUMNS:
+            value = round(getattr(item, name))
+            figures.label(text=str(value) if value else "", translate=False)
 
 
 class FACIAL_RETARGET_PT_report(Step, Panel):
@@ -52,6 +61,11 @@ class FACIAL_RETARGET_PT_report(Step, Panel):
         draw_text(layout, context, f"{face.id_data.name}: {face.findings_text}")
         if not len(face.findings):
             return
+        headings = layout.split(factor=NAMES)
+        headings.label(text="The Worst First")
+        row = headings.row()
+        for heading, _ in COLUMNS:
+            row.label(text=heading)
         layout.template_list("FACIAL_RETARGET_UL_findings", "", face, "findings", face, "active_finding", rows=5)
         row = layout.row(align=True)
         row.operator("facial_retarget.select_trouble", text="Select Torn").kind = "TORN"

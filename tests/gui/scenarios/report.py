@@ -2,7 +2,20 @@
 
 import bpy
 import numpy as np
-from drive import area, click, find_button, look, on_screen, open_section, press_button, region, screenshot, still, wait
+from drive import (
+    area,
+    click,
+    find_button,
+    look,
+    on_screen,
+    open_section,
+    open_tab,
+    press_button,
+    region,
+    screenshot,
+    still,
+    wait,
+)
 from stage import add_face, choose, clear, part
 
 PINK = np.array([255, 38, 140])
@@ -21,10 +34,9 @@ def picture(name: str) -> np.ndarray:
 
 
 def warmth(shown: np.ndarray, place: np.ndarray) -> int:
-    """How much more red than blue is at a place of the scene."""
+    """How much colour is at a place of the scene; grey has none."""
     x, y = (round(v) for v in on_screen(place))
-    around = shown[y - 2 : y + 3, x - 2 : x + 3].mean(axis=(0, 1))
-    return int(around[0] - around[2])
+    return int(np.ptp(shown[y - 2 : y + 3, x - 2 : x + 3], axis=2).max())
 
 
 def pink(shown: np.ndarray) -> int:
@@ -63,6 +75,7 @@ def scenario():
     yield from look("FRONT", [source, target])
 
     # The list: a click on its second row goes to that row's frame.
+    yield from open_tab()
     yield from open_section("6. Report")
     x, y = yield from find_button("select_trouble")
     height = 20 * bpy.context.preferences.system.ui_scale
