@@ -205,7 +205,7 @@ class FACIAL_RETARGET_PG_face(PropertyGroup):
     )
     findings: CollectionProperty(type=FACIAL_RETARGET_PG_finding, description="Frames and shape keys in trouble")
     active_finding: IntProperty(
-        name="Active finding",
+        name="Active Finding",
         update=_show_finding,
         description="Click to go to the frame, or to set the shape key to 1",
     )

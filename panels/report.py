@@ -9,7 +9,7 @@ ICONS = {"FRAME": "KEYFRAME", "KEY": "SHAPEKEY_DATA"}
 """Kind of a finding -> its icon."""
 
 
-COLUMNS = (("Torn", "torn"), ("Turned", "turned"), ("Lips %", "lip_gap"), ("Lids %", "lid_gap"))
+COLUMNS = (("Torn", "torn"), ("Turn", "turned"), ("Lip", "lip_gap"), ("Lid", "lid_gap"))
 """Heading of a column -> the figure that stands in it."""
 NAMES = 0.34
 """Share of a row that the name takes."""
@@ -62,7 +62,7 @@ class FACIAL_RETARGET_PT_report(Step, Panel):
         if not len(face.findings):
             return
         headings = layout.split(factor=NAMES)
-        headings.label(text="The Worst First")
+        headings.label(text="Worst")
         row = headings.row()
         for heading, _ in COLUMNS:
             row.label(text=heading)
