@@ -352,8 +352,8 @@ def _headers(editor: bpy.types.Area) -> list[tuple[float, float]]:
     shown = region("UI", editor)
     pixels = picture()[:, shown.x : shown.x + shown.width]
     scale = bpy.context.preferences.system.ui_scale
-    left = int(shown.width - 60 * scale)  # the tabs stand at the right of the panels
-    dots = pixels[:, left - int(20 * scale) : left + int(20 * scale)].astype(int)
+    # The tabs stand at the right of the panels, the question mark of the manual at the left of the dots.
+    dots = pixels[:, int(shown.width - 50 * scale) : int(shown.width - 30 * scale)].astype(int)
     bright = (np.abs(dots - np.median(dots, axis=1, keepdims=True)) > 20).sum(axis=1)
     plain = bright == 0
     rows = [
