@@ -157,6 +157,7 @@ class FACIAL_RETARGET_PG_finding(PropertyGroup):
     """A baked frame or a cloned shape key that is in trouble. `name` is inherited."""
 
     kind: EnumProperty(
+        name="Kind",
         items=[("FRAME", "Frame", "A baked frame"), ("KEY", "Shape Key", "A cloned shape key")],
         description="What is in trouble",
     )
@@ -167,8 +168,8 @@ class FACIAL_RETARGET_PG_finding(PropertyGroup):
     turned: IntProperty(name="Turned Triangles", description="Triangles that look inwards where the source's do not")
     lip_gap: FloatProperty(name="Lip Gap", description="More than the source's, in percent of the mouth's width")
     lid_gap: FloatProperty(name="Lid Gap", description="More than the source's, in percent of the eye's opening")
-    torn_vertices: StringProperty(description="Vertices of the torn edges, packed")
-    turned_vertices: StringProperty(description="Vertices of the turned triangles, packed")
+    torn_vertices: StringProperty(name="Torn Vertices", description="Vertices of the torn edges, packed")
+    turned_vertices: StringProperty(name="Turned Vertices", description="Vertices of the turned triangles, packed")
 
 
 class FACIAL_RETARGET_PG_face(PropertyGroup):
@@ -210,10 +211,14 @@ class FACIAL_RETARGET_PG_face(PropertyGroup):
         description="Click to go to the frame, or to set the shape key to 1",
     )
     findings_text: StringProperty(name="Findings", description="What was found, in words")
-    findings_vertices: IntProperty(description="How many vertices the object had when this was found")
-    findings_source: PointerProperty(type=Object, description="The source of the baked frames")
-    counterpart: StringProperty(description="The source's vertex for each of the head's vertices, packed")
-    shown_key: StringProperty(description="The shape key that a click in the list has set to 1")
+    findings_vertices: IntProperty(
+        name="Vertices Then", description="How many vertices the object had when this was found"
+    )
+    findings_source: PointerProperty(name="Source Then", type=Object, description="The source of the baked frames")
+    counterpart: StringProperty(
+        name="Counterpart", description="The source's vertex for each of the head's vertices, packed"
+    )
+    shown_key: StringProperty(name="Shown Shape Key", description="The shape key that a click in the list has set to 1")
     head: PointerProperty(name="Head", type=Object, description="The empty that shows how the head turns")
 
     @property
