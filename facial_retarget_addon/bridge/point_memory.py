@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-from bpy.types import Object
+from bpy.types import Object, PropertyGroup
 
-StoredPoint = tuple[str, tuple[int, ...], tuple[float, ...]]
+FIELDS = ("name", "vertices", "weights", "topology", "anchored", "anchor", "anchor_normal", "doubt")
+"""All that a stored point knows of itself."""
+
+StoredPoint = dict[str, Any]
 
 
 class PointMemory(NamedTuple):
@@ -21,10 +24,7 @@ class PointMemory(NamedTuple):
 def remember_points(thing: Object) -> PointMemory:
     """The points of an object as they are."""
     face = thing.facial_retarget
-    points, proposals = (
-        [(point.name, tuple(point.vertices), tuple(point.weights)) for point in stored]
-        for stored in (face.points, face.proposals)
-    )
+    points, proposals = ([_kept(point) for point in stored] for stored in (face.points, face.proposals))
     return PointMemory(points, proposals, face.skipped.keys(), face.active_point)
 
 
@@ -33,10 +33,16 @@ def put_back_points(thing: Object, memory: PointMemory) -> None:
     face = thing.facial_retarget
     for stored, kept in ((face.points, memory.points), (face.proposals, memory.proposals)):
         stored.clear()
-        for name, vertices, weights in kept:
+        for values in kept:
             point = stored.add()
-            point.name, point.vertices, point.weights = name, vertices, weights
+            for field, value in values.items():
+                setattr(point, field, value)
     face.skipped.clear()
     for name in memory.skipped:
         face.skipped.add().name = name
     face.active_point = memory.active
+
+
+def _kept(point: PropertyGroup) -> StoredPoint:
+    values = {field: getattr(point, field) for field in FIELDS}
+    return {field: value if isinstance(value, str | bool) else tuple(value) for field, value in values.items()}

@@ -71,15 +71,20 @@ def update_predictions(thing: Object) -> None:
     """Propose what the placed points tell of the missing ones, and note which placed points are doubtful.
 
     To be called after points were placed, moved, removed or skipped. While the placed points are too few to tell
-    anything, proposals stay as they are. On a mesh that has changed nothing is touched until the points are refreshed.
+    anything, proposals stay as they are. On a mesh that has changed nothing is touched until the points are refreshed,
+    and nothing where points or mesh are broken: what works with them says so.
     """
     if has_stale_points(thing) or thing.data.is_editmode:
         return
-    points, wanted, there = read_points(thing), wanted_names(thing), _still_wanted(thing)
-    predicted = _predicted(thing, points, wanted)
+    try:
+        points, there = read_points(thing), _still_wanted(thing)
+        predicted, doubtful = _predicted(thing, points, wanted_names(thing)), _doubts(thing, points)
+    except RetargetError:
+        return
     others = there.subset([name for name in there.names if name not in predicted.names])
     write_proposals(thing, predicted.joined(others))
-    _note_doubts(thing, points)
+    for point in thing.facial_retarget.points:
+        point.doubt = doubtful.get(point.name, "")
 
 
 def guess_steps(thing: Object) -> Steps[float]:
@@ -200,14 +205,10 @@ def _still_wanted(thing: Object) -> FeaturePoints:
     return proposals.subset([name for name in proposals.names if name not in unwanted])
 
 
-def _note_doubts(thing: Object, points: FeaturePoints) -> None:
-    """Say of each placed point why it is doubtful: of where it lies against the others, and on an average face."""
+def _doubts(thing: Object, points: FeaturePoints) -> dict[str, str]:
+    """Why points are doubtful: how they lie against one another, and on an average face."""
     if not len(points):
-        return
+        return {}
     places = points.positions(read_positions(thing.data).astype(np.float64))
-    strange = dict.fromkeys(predictor_of(thing).doubtful(points), "far from where the other points expect it")
-    said = strange | doubts(points.names, places)
-    for point in thing.facial_retarget.points:
-        doubt = said.get(point.name, "")
-        if point.doubt != doubt:
-            point.doubt = doubt
+    strange = predictor_of(thing).doubtful(points) if _telling(points) >= LEAST else ()
+    return dict.fromkeys(strange, "far from where the other points expect it") | doubts(points.names, places)

@@ -138,6 +138,9 @@ before = places(thing)
 edit([50, 51, 59], delete)
 with refused("'at 50'", "gone", "Refresh Points"):
     points.read_points(thing)
+with refused("'at 50'", "gone"):
+    bpy.ops.facial_retarget.save_points(filepath=str(folder / "lost.json"))
+assert not (folder / "lost.json").exists()
 with refused("'at 50'", "Refresh Points"):
     points.place_point(thing, "new", [1, 1, 1], [1.0, 0.0, 0.0])
 # Placed anew it is where the artist says.
@@ -265,3 +268,21 @@ points.place_point(thing, "new", [1, 1, 1], [1.0, 0.0, 0.0])
 before["new"] = np.array(thing.data.vertices[1].co)
 edit([0], delete)
 same(places(thing), before)
+
+# What Esc puts back holds to the surface as before.
+thing = new_face()
+before = places(thing)
+memory = part("bridge.point_memory")
+kept = memory.remember_points(thing)
+points.place_point(thing, "at 40", [1, 1, 1], [1.0, 0.0, 0.0])
+memory.put_back_points(thing, kept)
+edit([0], delete)
+same(places(thing), before)
+
+# Broken points hinder neither the set from being chosen nor other points from being removed.
+thing = new_face()
+thing.facial_retarget.points["at 40"].vertices = (999, 999, 999)
+thing.facial_retarget.point_set = "DENSE"
+thing.facial_retarget.active_point = thing.facial_retarget.points.find("at 40")
+assert bpy.ops.facial_retarget.remove_point() == {"FINISHED"}
+assert len(places(thing)) == 5
