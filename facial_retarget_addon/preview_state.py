@@ -3,9 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 
 from .core.methods.settings import SETTINGS, STRENGTHS
+
+COLUMNS = ("Torn", "Folds", "Lips%", "Lids%", "Fit s", "ms")
+"""What is compared: torn edges and turned triangles of the mean frame, by how much lips and lids are open otherwise
+than the source's in percent, seconds of the fit, milliseconds of a frame.
+"""
+
+
+@dataclass(frozen=True)
+class ComparedMethod:
+    """A method's figures as the panel shows them, one for each of `COLUMNS`."""
+
+    method: str
+    cells: tuple[str, ...]
 
 
 @dataclass
@@ -19,6 +32,7 @@ class PreviewState:
     stale : what has changed since the fit, "" for nothing.
     trouble : why the last frame could not be shown, "" where it was.
     milliseconds : that the last update took, from reading the source to writing the target.
+    rows : the methods that were compared.
     listener : called with what was changed, "faces", "settings", "gains" or "masks", while the preview is on.
     forget : ends the preview and drops what was fitted; None where nothing was.
     """
@@ -28,6 +42,7 @@ class PreviewState:
     stale: str = ""
     trouble: str = ""
     milliseconds: float = 0.0
+    rows: list[ComparedMethod] = field(default_factory=list)
     listener: Callable[[str], None] | None = None
     forget: Callable[[], None] | None = None
 

@@ -558,6 +558,16 @@ class FACIAL_RETARGET_PG_task(PropertyGroup):
         description="How the motion is carried from face to face",
         update=_tell("settings"),
     )
+    compared: EnumProperty(
+        name="Methods",
+        items=[(name, _label(name), text) for name, text in METHODS.items()],
+        options={"ENUM_FLAG"},
+        default=set(METHODS),
+        description="The methods that are compared",
+    )
+    compared_frames: IntProperty(
+        name="Frames", default=8, min=1, soft_max=50, description="How many frames of the range the figures come from"
+    )
     regions: PointerProperty(type=FACIAL_RETARGET_PG_regions)
     masks: CollectionProperty(type=FACIAL_RETARGET_PG_mask, description="Painted masks of the target")
     active_mask: IntProperty(name="Active Mask", description="The mask that is chosen in the list")

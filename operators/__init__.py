@@ -80,6 +80,8 @@ CLASSES = (
     select_trouble.FACIAL_RETARGET_OT_select_trouble,
     preview.FACIAL_RETARGET_OT_start_preview,
     preview.FACIAL_RETARGET_OT_stop_preview,
+    preview.FACIAL_RETARGET_OT_compare,
+    preview.FACIAL_RETARGET_OT_show_method,
     masks.FACIAL_RETARGET_OT_add_mask,
     masks.FACIAL_RETARGET_OT_remove_mask,
     export_gltf.FACIAL_RETARGET_OT_export_gltf,

@@ -2,8 +2,10 @@
 
 from typing import Any
 
+from bpy.props import EnumProperty
 from bpy.types import Context, Operator
 
+from ..facial_retarget_addon.core.methods import METHODS
 from ..facial_retarget_addon.preview_state import STATE
 from .in_steps import InSteps
 from .polls import OnTask
@@ -51,4 +53,40 @@ class FACIAL_RETARGET_OT_stop_preview(Operator):
         from ..facial_retarget_addon.bridge.preview import stop_preview
 
         stop_preview()
+        return {"FINISHED"}
+
+
+class FACIAL_RETARGET_OT_compare(OnTask, InSteps, Operator):
+    """Fit the chosen methods, measure each on some frames, and let the target follow by the one you pick; Esc stops"""
+
+    bl_idname = "facial_retarget.compare"
+    bl_label = "Compare"
+    bl_options = {"REGISTER", "UNDO"}
+    doing = "Comparing"
+
+    def steps(self, context: Context) -> Any:
+        """Fit and measure."""
+        from ..facial_retarget_addon.bridge.preview import compare_steps
+
+        return compare_steps(context)
+
+    def finish(self, result: None) -> None:
+        """Say what to do."""
+        self.report({"INFO"}, "Click a method to see the target follow by it")
+
+
+class FACIAL_RETARGET_OT_show_method(Operator):
+    """Choose this method: the target follows by it at once"""
+
+    bl_idname = "facial_retarget.show_method"
+    bl_label = "Show Method"
+    bl_options = {"REGISTER", "UNDO"}
+
+    method: EnumProperty(
+        name="Method", items=[(name, name, text) for name, text in METHODS.items()], description="The method to choose"
+    )
+
+    def execute(self, context: Context) -> set[str]:
+        """Choose it."""
+        context.scene.facial_retarget.method = self.method
         return {"FINISHED"}

@@ -35,6 +35,7 @@ CLASSES = (
     method.FACIAL_RETARGET_PT_retarget,
     preview.FACIAL_RETARGET_UL_masks,
     preview.FACIAL_RETARGET_PT_preview,
+    preview.FACIAL_RETARGET_PT_compare,
     preview.FACIAL_RETARGET_PT_gains,
     method.FACIAL_RETARGET_PT_settings,
     bake_export.FACIAL_RETARGET_PT_export,

@@ -1,8 +1,10 @@
 """The live preview."""
 
+from collections.abc import Iterable
+
 from bpy.types import Context, Panel, PropertyGroup, UILayout, UIList
 
-from ..facial_retarget_addon.preview_state import STATE, strengths
+from ..facial_retarget_addon.preview_state import COLUMNS, STATE, strengths
 from .tab import RetargetTab, draw_text, filled
 
 
@@ -25,6 +27,40 @@ class FACIAL_RETARGET_PT_preview(RetargetTab, Panel):
             if text:
                 draw_text(layout, context, text, icon="ERROR")
         layout.label(text=filled("{milliseconds:.1f} ms a frame", milliseconds=STATE.milliseconds), icon="TIME")
+
+
+class FACIAL_RETARGET_PT_compare(RetargetTab, Panel):
+    """The methods side by side, in numbers and on the target."""
+
+    bl_label = "Compare"
+    bl_parent_id = "FACIAL_RETARGET_PT_retarget"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: Context) -> None:
+        """Draw the panel."""
+        layout = self.layout
+        task = context.scene.facial_retarget
+        layout.column(align=True).prop(task, "compared")
+        row = layout.row(align=True)
+        row.operator("facial_retarget.compare", icon="VIEWZOOM")
+        row.prop(task, "compared_frames")
+        if STATE.rows:
+            _draw_cells(layout, COLUMNS)
+        for shown in STATE.rows:
+            button = layout.operator(
+                "facial_retarget.show_method",
+                text=layout.enum_item_name(task, "method", shown.method),
+                depress=STATE.on and task.method == shown.method,
+            )
+            button.method = shown.method
+            _draw_cells(layout, shown.cells, translate=False)
+
+
+def _draw_cells(layout: UILayout, cells: Iterable[str], translate: bool = True) -> None:
+    """One row of short texts, all as wide."""
+    row = layout.grid_flow(row_major=True, columns=len(COLUMNS), even_columns=True, align=True)
+    for cell in cells:
+        row.label(text=cell, translate=translate)
 
 
 class FACIAL_RETARGET_UL_masks(UIList):

@@ -57,17 +57,17 @@ def read_frame(context: Context, things: Sequence[Object], frame: int) -> FloatA
     return head_now(things, context.evaluated_depsgraph_get())
 
 
-def each_frame(scene: Scene, frames: range, read: Callable[[int, int], None]) -> Steps[None]:
+def check_range(frames: range) -> None:
+    """RetargetError if there is no frame."""
+    if not len(frames):
+        raise RetargetError(f"the frame range ends at {frames.stop - 1} before it starts at {frames.start}")
+
+
+def each_frame(scene: Scene, frames: Sequence[int], read: Callable[[int, int], None]) -> Steps[None]:
     """Call `read(i, frame)` for each frame, one at each step.
 
     The scene's frame is put back at the end, and when the steps are closed half-way.
-
-    Raises
-    ------
-    RetargetError : if there is no frame.
     """
-    if not len(frames):
-        raise RetargetError(f"the frame range ends at {frames.stop - 1} before it starts at {frames.start}")
     with frame_kept(scene):
         for i, frame in enumerate(frames):
             read(i, frame)
@@ -79,8 +79,9 @@ def read_frames(context: Context, face: Object, frames: range) -> Steps[FloatArr
 
     Raises
     ------
-    RetargetError : as `each_frame` and `read_frame`.
+    RetargetError : as `check_range` and `read_frame`.
     """
+    check_range(frames)
     things = (face, *head_parts(face))
     positions = np.empty((len(frames), sum(len(thing.data.vertices) for thing in things), 3), np.float32)
 

@@ -131,6 +131,25 @@ np.testing.assert_allclose(shown(target), at_one, atol=1e-5 * size)
 task.method = "motion_cloning"
 bpy.ops.facial_retarget.start_preview()
 
+# Methods compared: figures of each, and a click shows the other one at once.
+task.compared, task.compared_frames = {"motion_cloning", "feature_points"}, 3
+assert bpy.ops.facial_retarget.compare("INVOKE_DEFAULT") == {"FINISHED"}
+state = part("preview_state").STATE
+assert {row.method: len(row.cells) for row in state.rows} == {"feature_points": 6, "motion_cloning": 6}
+assert bpy.context.scene.frame_current == 7
+np.testing.assert_allclose(shown(target), wanted(7), atol=1e-5 * size)
+assert bpy.ops.facial_retarget.show_method(method="feature_points") == {"FINISHED"}
+assert state.on
+assert state.method == "feature_points"
+assert not state.stale
+other = shown(target)
+assert np.abs(other - wanted(7)).max() > 0.001 * size
+bpy.ops.facial_retarget.show_method(method="hierarchical")
+assert "method" in state.stale
+bpy.ops.facial_retarget.show_method(method="motion_cloning")
+assert not state.stale
+np.testing.assert_allclose(shown(target), wanted(7), atol=1e-5 * size)
+
 # Out of date: says so, and a refresh takes it in.
 state = part("preview_state").STATE
 check = part("bridge.preview").check_origin

@@ -1,10 +1,11 @@
-"""The target follows while the artist scrubs, plays and drags; gains act at once; off, undo and a saved file are clean."""
+"""The target follows while the artist scrubs, plays and drags, by one method or another, and nothing is left of it."""
 
 import bpy
 import numpy as np
 from drive import (
     OUT,
     area,
+    click,
     drag,
     find_button,
     key,
@@ -114,7 +115,29 @@ def scenario():
     assert wanted.objects[0].data.shape_keys is None
     bpy.data.batch_remove([wanted.objects[0], wanted.objects[0].data])
 
+    # Compared: a click on a method shows it at once.
+    x, y = yield from find_button("facial_retarget.stop_preview")
+    scale = bpy.context.preferences.system.ui_scale
+    yield from click(x, y - 58 * scale)
+    yield from press_button("facial_retarget.compare()")
+    yield from wait_until(lambda: len(state().rows) == 4, "the comparison", 120)
+    yield from wait()
+    np.testing.assert_allclose(shown(target()), before, atol=1e-5 * np.ptp(rest))
+    screenshot("compared")
+    yield from press_button("facial_retarget.show_method(method='feature_points')")
+    yield from wait_until(lambda: state().method == "feature_points", "the method")
+    yield from wait()
+    assert motion(before) > 0.002, motion(before)
+    screenshot("other_method")
+    yield from press_button("facial_retarget.show_method(method='hierarchical')")
+    yield from wait_until(lambda: state().method == "hierarchical", "the method")
+    yield from wait()
+    np.testing.assert_allclose(shown(target()), before, atol=1e-5 * np.ptp(rest))
+
     # Off: as before. Undo turns it on again, redo off.
+    with override(None, "UI"):
+        bpy.ops.view2d.reset()
+    yield from wait()
     yield from press_button("facial_retarget.stop_preview")
     assert not state().on
     assert target().data.shape_keys is None
