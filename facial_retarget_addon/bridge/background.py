@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Generator
 from concurrent.futures import Future, TimeoutError
 from contextlib import closing
-from threading import Event, Thread
+from threading import Event, Lock, Thread
 from typing import TypeVar
 
 from ..core.arrays import Progress
@@ -24,8 +24,15 @@ _lingering: list[Thread] = []
 """The threads of stopped works."""
 
 
-def in_thread(work: Callable[[Progress], T]) -> Steps[T]:
+def _keep(made: object) -> None:
+    """What most works make needs no discarding."""
+
+
+def in_thread(work: Callable[[Progress], T], discard: Callable[[T], None] = _keep) -> Steps[T]:
     """Run `work(progress)` on a thread; it may touch no Blender data.
+
+    Either the steps return what the work has made, or `discard` gets it: where they are closed after its last progress
+    call.
 
     Closing the steps takes no time: the work's next progress call raises Cancelled, and nobody waits for that, at the
     end of Blender neither. Where several stopped works are still on their way there, the next one waits for one of
@@ -35,7 +42,7 @@ def in_thread(work: Callable[[Progress], T]) -> Steps[T]:
         _lingering[0].join(PATIENCE)
         yield 0.0, "Waiting for what was stopped"
     state: list[tuple[float, str]] = [(0.0, "")]
-    stopped = Event()
+    stopped, lock, taken = Event(), Lock(), False
     result: Future[T] = Future()
 
     def progress(share: float, what: str) -> None:
@@ -45,9 +52,15 @@ def in_thread(work: Callable[[Progress], T]) -> Steps[T]:
 
     def run() -> None:
         try:
-            result.set_result(work(progress))
+            made = work(progress)
         except BaseException as error:
             result.set_exception(error)
+            return
+        with lock:
+            if stopped.is_set():
+                discard(made)
+            else:
+                result.set_result(made)
 
     # Python waits at its end for all threads but daemons.
     thread = Thread(target=run, name="facial retarget", daemon=True)
@@ -55,13 +68,18 @@ def in_thread(work: Callable[[Progress], T]) -> Steps[T]:
     try:
         while True:
             try:
-                return result.result(PATIENCE)
+                made = result.result(PATIENCE)
+                taken = True
+                return made
             except TimeoutError:
                 if result.done():
                     raise
             yield state[0]
     finally:
-        stopped.set()
+        with lock:
+            stopped.set()
+            if not taken and result.done() and result.exception() is None:
+                discard(result.result())
         _lingering.append(thread)
 
 

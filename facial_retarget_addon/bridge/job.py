@@ -20,7 +20,7 @@ from ..files.masks import write_mask
 from ..files.mesh_file import MeshFile
 from ..files.meshes import write_mesh
 from ..files.run import Inputs, read_inputs
-from ..files.whole import written_whole
+from ..files.whole import Aside, appear_whole, written_aside
 from .background import Steps, in_thread, part
 from .bake import write_frames
 from .base_object import show_triangles
@@ -49,9 +49,9 @@ def save_job_steps(context: Context, path: Path) -> Steps[None]:
     maps = map_output(task)
     method, wanted = task.method, [_chosen(file) for file in (task.output, task.report, task.page)]
 
-    def write(progress: Progress) -> None:
+    def write(progress: Progress) -> Aside:
         progress(0.0, "Writing")
-        with written_whole() as aside:
+        with written_aside() as aside:
             files = _ExampleFiles(path, aside)
             source, target = (files.head(role, head) for role, head in zip(("source", "target"), heads, strict=True))
             base = None if problem.base is None else files.add("base.json", write_base_mesh, problem.base)
@@ -71,10 +71,11 @@ def save_job_steps(context: Context, path: Path) -> Steps[None]:
                 maps,
             )
             write_job(job, aside.place(path))
-            # The last moment to stop: after it the files appear.
             progress(1.0, "Writing")
+        return aside
 
-    yield from part(in_thread(write), 0.8, 0.2)
+    # Nothing appears before the artist can no longer stop it.
+    appear_whole((yield from part(in_thread(write, Aside.vanish), 0.8, 0.2)))
 
 
 class _ExampleFiles(Beside):

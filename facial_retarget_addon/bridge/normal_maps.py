@@ -17,7 +17,7 @@ from ..core.normal_maps.frame_maps import FrameMaps
 from ..core.retarget import checked_fit
 from ..files.images import suffix_of
 from ..files.normal_map_files import textured, write_frame_maps
-from ..files.whole import written_whole
+from ..files.whole import Aside, appear_whole, written_aside
 from .background import Steps, in_thread, part
 from .bake import write_frames
 from .heads import head_parts, read_head
@@ -42,10 +42,15 @@ class MadeMaps(NamedTuple):
 
 
 class _Computed(NamedTuple):
-    """The maps, and the light mesh (F, V, 3) of the frames."""
+    """The maps, the light mesh (F, V, 3) of the frames, and the pictures, which have not appeared yet."""
 
     maps: FrameMaps
     light: FloatArray
+    aside: Aside
+
+    def discard(self) -> None:
+        """Leave no picture behind."""
+        self.aside.vanish()
 
 
 def normal_map_steps(context: Context) -> Steps[MadeMaps]:
@@ -69,17 +74,19 @@ def normal_map_steps(context: Context) -> Steps[MadeMaps]:
     surface = None if made.level else textured(read_face(task.target), f"object {task.target.name!r}")
     frames = frame_range(context)
     source = yield from part(read_frames(context, task.source, frames), 0.0, READING)
-    with written_whole() as aside:
-        place = aside.place(folder, replaces=suffix_of(made.depth))
-        place.mkdir()
 
-        def compute(progress: Progress) -> _Computed:
+    def compute(progress: Progress) -> _Computed:
+        with written_aside() as aside:
+            place = aside.place(folder, replaces=suffix_of(made.depth))
+            place.mkdir()
             fitted = cast(LevelRetargeter, checked_fit(method, problem, settings, progress_part(progress, 0.0, 0.3)))
             maps = FrameMaps(fitted, problem, surface, made, progress_part(progress, 0.3, 0.4))
             writing = progress_part(progress, 0.4, 1.0)
-            return _Computed(maps, write_frame_maps(place, made, maps, source, frames.start, writing))
+            light = write_frame_maps(place, made, maps, source, frames.start, writing)
+        return _Computed(maps, light, aside)
 
-        computed = yield from part(in_thread(compute), READING, 1 - READING)
+    computed = yield from part(in_thread(compute, _Computed.discard), READING, 1 - READING)
+    appear_whole(computed.aside)
     thing = task.target
     if made.level:
         thing = _level_object(task.target, made.level, computed, frames.start)

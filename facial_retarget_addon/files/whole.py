@@ -71,14 +71,42 @@ def written_whole() -> Iterator[Aside]:
     ------
     RetargetError : if the system refuses to write, such as on a full disk.
     """
+    with written_aside() as aside:
+        yield aside
+    appear_whole(aside)
+
+
+@contextmanager
+def written_aside() -> Iterator[Aside]:
+    """Write several outputs that `appear_whole` lets appear together, or whose `vanish` removes them.
+
+    An exception removes them too. RetargetError if the system refuses to write.
+    """
     aside = Aside()
     try:
-        yield aside
-        aside.appear()
-    except OSError as error:
-        raise RetargetError(f"{aside.busy_with or 'the output'} cannot be written: {_reason(error)}") from error
+        with _told(aside):
+            yield aside
+    except BaseException:
+        aside.vanish()
+        raise
+
+
+def appear_whole(aside: Aside) -> None:
+    """Put what was written aside in its place; RetargetError if the system refuses, and what has not appeared goes."""
+    try:
+        with _told(aside):
+            aside.appear()
     finally:
         aside.vanish()
+
+
+@contextmanager
+def _told(aside: Aside) -> Iterator[None]:
+    """What the system refuses, in words."""
+    try:
+        yield
+    except OSError as error:
+        raise RetargetError(f"{aside.busy_with or 'the output'} cannot be written: {_reason(error)}") from error
 
 
 def write_whole(path: Path, content: bytes) -> None:

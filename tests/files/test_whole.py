@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from facial_retarget_addon.core.errors import RetargetError
-from facial_retarget_addon.files.whole import write_whole, written_whole
+from facial_retarget_addon.files.whole import appear_whole, write_whole, written_aside, written_whole
 
 
 @pytest.fixture
@@ -117,3 +117,25 @@ def test_new_files_have_ordinary_permissions(tmp_path):
     write_whole(tmp_path / "a", b"new")
     (tmp_path / "b").write_bytes(b"new")
     assert (tmp_path / "a").stat().st_mode == (tmp_path / "b").stat().st_mode
+
+
+def fail_aside(folder: Path) -> None:
+    with written_aside() as aside:
+        write_both(folder, aside)
+        raise ZeroDivisionError
+
+
+def test_what_is_written_aside_waits_for_its_appearance(old, listing):
+    before = listing()
+    with written_aside() as aside:
+        write_both(old, aside)
+    assert {name: listing()[name] for name in before} == before
+    aside.vanish()
+    assert listing() == before
+    with written_aside() as aside:
+        write_both(old, aside)
+    appear_whole(aside)
+    assert listing() == {"report.json": b"new", "take/frame_1.obj": b"new"}
+    with pytest.raises(ZeroDivisionError):
+        fail_aside(old)
+    assert listing() == {"report.json": b"new", "take/frame_1.obj": b"new"}

@@ -1,6 +1,7 @@
 """Stopping work on a thread waits for nothing: neither for its next progress call, nor at the end of Blender."""
 
 from threading import Event
+from time import sleep
 
 from stage import enable, part
 
@@ -73,3 +74,34 @@ else:
 
 # `second` still hangs: Python must end nevertheless.
 assert not second.go.is_set()
+
+# What was made and is not taken is discarded, whether the work has ended before the steps are closed or after.
+for ends_first in (True, False):
+    made: list[str] = []
+    said, go, over = Event(), Event(), Event()
+
+    def late(progress: object, said: Event = said, go: Event = go, over: Event = over) -> str:
+        """Calls progress for the last time, and goes on for a while."""
+        progress(1.0, "last")
+        said.set()
+        go.wait()
+        over.set()
+        return "late"
+
+    steps = background.in_thread(late, made.append)
+    next(steps)
+    assert said.wait(60)
+    if ends_first:
+        go.set()
+        assert over.wait(60)
+        sleep(0.2)
+    steps.close()
+    go.set()
+    for thread in list(background._lingering):
+        thread.join(60)
+    assert made == ["late"], made
+made.clear()
+work = Work()
+work.go.set()
+assert background.finished(background.in_thread(work, made.append)) == "made"
+assert made == []

@@ -168,3 +168,87 @@ def snapshot() -> dict[str, object]:
         "points": {thing.name: len(thing.facial_retarget.points) for thing in bpy.data.objects},
         "examples": [example.name for example in scene.facial_retarget.examples],
     }
+
+
+def everything() -> dict[str, object]:
+    """All that the file holds of what our operators write, to the last vertex: for what must be as it was before."""
+    scene = bpy.context.scene
+    found: dict[str, object] = {
+        "scene": (scene.frame_current, scene.frame_subframe, scene.frame_start, scene.frame_end),
+        "rate": (scene.render.fps, scene.render.fps_base),
+        "active": getattr(bpy.context.view_layer.objects.active, "name", None),
+        "task": _values(scene.facial_retarget),
+        "texts": {text.name: text.as_string() for text in bpy.data.texts},
+        "worlds": [
+            [item.name for item in kind] for kind in (bpy.data.materials, bpy.data.images, bpy.data.collections)
+        ],
+    }
+    for thing in bpy.data.objects:
+        found[f"object {thing.name}"] = {
+            "data": thing.data.name if thing.data else "",
+            "place": [list(row) for row in thing.matrix_world],
+            "look": (thing.hide_get(), thing.select_get(), thing.mode, thing.show_only_shape_key),
+            "active_key": thing.active_shape_key_index,
+            "modifiers": [modifier.name for modifier in thing.modifiers],
+            "groups": thing.vertex_groups.keys(),
+            "parent": thing.parent.name if thing.parent else "",
+            "custom": {name: str(value) for name, value in thing.items() if name != "facial_retarget"},
+            "face": _values(thing.facial_retarget),
+            "motion": _motion(thing),
+            "shown": shown(thing).tobytes() if thing.type == "MESH" else b"",
+        }
+    for mesh in bpy.data.meshes:
+        found[f"mesh {mesh.name}"] = (
+            part("bridge.meshes").read_positions(mesh).tobytes(),
+            sorted(attribute.name for attribute in mesh.attributes),
+            len(mesh.polygons),
+        )
+    for keys in bpy.data.shape_keys:
+        found[f"keys {keys.name}"] = (_motion(keys), [_key(key) for key in keys.key_blocks])
+    return found
+
+
+def differences(before: dict[str, object], after: dict[str, object]) -> list[str]:
+    """What of `everything` is not as it was."""
+    return [name for name in {**before, **after} if before.get(name) != after.get(name)]
+
+
+def _key(key: bpy.types.ShapeKey) -> tuple[object, ...]:
+    flat = np.empty(3 * len(key.points), np.float32)
+    key.points.foreach_get("co", flat)
+    traits = (key.value, key.mute, key.slider_min, key.slider_max, key.vertex_group, key.relative_key.name)
+    return key.name, *traits, flat.tobytes()
+
+
+def _motion(animated: bpy.types.ID) -> object:
+    """Curves and drivers."""
+    animation = animated.animation_data
+    if animation is None:
+        return None
+    bag = part("bridge.curves").find_curves(animated)
+    curves = [
+        (curve.data_path, curve.array_index, [tuple(key.co) for key in curve.keyframe_points], curve.mute)
+        for curve in (bag.fcurves if bag else ())
+    ]
+    drivers = [(curve.data_path, curve.driver.expression, len(curve.driver.variables)) for curve in animation.drivers]
+    return animation.action.name if animation.action else "", curves, drivers, len(animation.nla_tracks)
+
+
+def _values(group: bpy.types.PropertyGroup) -> dict[str, object]:
+    """A property group with all that it holds, without what is worked out when it is read."""
+    found: dict[str, object] = {}
+    for prop in group.bl_rna.properties:
+        if prop.identifier == "rna_type" or (prop.is_readonly and prop.type not in ("POINTER", "COLLECTION")):
+            continue
+        value = getattr(group, prop.identifier)
+        if prop.type == "COLLECTION":
+            found[prop.identifier] = [_values(item) for item in value]
+        elif isinstance(value, bpy.types.PropertyGroup):
+            found[prop.identifier] = _values(value)
+        elif isinstance(value, bpy.types.ID):
+            found[prop.identifier] = value.name
+        elif getattr(prop, "is_array", False):
+            found[prop.identifier] = tuple(value)
+        else:
+            found[prop.identifier] = value
+    return found
