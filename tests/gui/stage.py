@@ -78,10 +78,10 @@ def remember() -> None:
 
 def choose(thing: bpy.types.Object) -> None:
     """Make an object the active and the only selected one."""
+    bpy.context.view_layer.update()
     for other in bpy.context.view_layer.objects:
         other.select_set(other == thing)
     bpy.context.view_layer.objects.active = thing
-    bpy.context.view_layer.update()
 
 
 def shown(thing: bpy.types.Object) -> np.ndarray:
