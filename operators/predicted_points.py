@@ -110,7 +110,10 @@ class FACIAL_RETARGET_OT_clear_proposals(OnProposals, Operator):
 
     def execute(self, context: Context) -> set[str]:
         """Forget them."""
-        context.active_object.facial_retarget.proposals.clear()
+        from ..facial_retarget_addon.bridge.points import read_proposals, write_proposals
+
+        thing = context.active_object
+        write_proposals(thing, read_proposals(thing).subset([]))
         return {"FINISHED"}
 
 

@@ -47,9 +47,6 @@ def update_when_prepared(thing: Object) -> None:
         if is_preparing(found):
             return TICK
         update_predictions(found)
-        for window in bpy.context.window_manager.windows:
-            for area in window.screen.areas:
-                area.tag_redraw()
         return None
 
     bpy.app.timers.register(look, first_interval=TICK)

@@ -13,6 +13,7 @@ from ..core.errors import RetargetError
 from ..core.points import FeaturePoints
 from .meshes import from_face_space, neutral_mesh, to_face_space
 from .point_anchors import Settled, anchor_points, renew_rest, settle
+from .redraw import redraw_views
 from .topology import has_stale_points, is_stale, topology_of
 
 
@@ -111,6 +112,7 @@ def write_proposals(thing: Object, proposals: FeaturePoints) -> None:
         if name not in placed:
             _append(face.proposals, name, vertices, weights)
             face.proposals[-1].topology = topology
+    redraw_views()
 
 
 def place_point(thing: Object, name: str, vertices: Sequence[int], weights: Sequence[float]) -> None:

@@ -28,6 +28,7 @@ from .performance import check_range, check_visible, each_frame, read_frame
 from .preview_keys import add_preview_keys, held_in_files, keep_own_keys, remove_every_key, remove_preview_keys
 from .preview_origin import origin_of, whole_head
 from .preview_target import Fit, PreviewTarget
+from .redraw import redraw_views
 from .settings import read_method_settings
 from .shape_keys import PREVIEW_KEY, find_key
 from .task import frame_range, read_problem
@@ -114,7 +115,7 @@ def check_origin() -> None:
     stale = f"Changed since the fit: {', '.join(changed)}" if changed else ""
     if stale != STATE.stale:
         STATE.stale = stale
-        _redraw()
+        redraw_views()
 
 
 def _read(context: Context) -> tuple[Problem, Head]:
@@ -282,7 +283,7 @@ def _go_on() -> None:
     _set_handlers((*WORKING, *STAYING), True)
     if not bpy.app.timers.is_registered(_tick):
         bpy.app.timers.register(_tick, first_interval=CHECK)
-    _redraw()
+    redraw_views()
 
 
 def _halt() -> None:
@@ -292,7 +293,7 @@ def _halt() -> None:
     for timer in (_tick, _adjust):
         if bpy.app.timers.is_registered(timer):
             bpy.app.timers.unregister(timer)
-    _redraw()
+    redraw_views()
 
 
 def _tick() -> float:
@@ -321,12 +322,3 @@ def _adjust() -> None:
         _preview.adjust(scene.facial_retarget)
         _preview.update(scene, bpy.context.evaluated_depsgraph_get(), again=True)
         check_origin()
-
-
-def _redraw() -> None:
-    """Draw the panels again."""
-    for manager in bpy.data.window_managers:
-        for window in manager.windows:
-            for area in window.screen.areas:
-                if area.type == "VIEW_3D":
-                    area.tag_redraw()

@@ -10,6 +10,7 @@ import numpy as np
 from bpy.types import Context, Object
 from gpu.types import GPUBatch
 
+from ..bridge.redraw import redraw_views
 from ..core.errors import RetargetError
 from .changes import look, stored_points
 from .lines import line_batch, triangle_batch
@@ -135,15 +136,8 @@ def _go_on() -> float | None:
         made = ({}, str(error))
     _base.steps, (_base.lines, _base.trouble) = None, made
     _base.batches.clear()
-    _redraw()
+    redraw_views()
     return None if _base.wanted == _base.working else REST
-
-
-def _redraw() -> None:
-    for window in bpy.context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                area.tag_redraw()
 
 
 def _batches(thing: Object, depsgraph: Any, lines: Any) -> tuple[Any, GPUBatch | None, GPUBatch | None]:

@@ -11,11 +11,14 @@ from drive import (
     on_screen,
     open_section,
     open_tab,
+    picture,
     press_button,
     redo,
+    region,
     screenshot,
     still,
     undo,
+    wait_until,
 )
 from stage import FACES, add_face, add_suzanne, clear, part, point_places, remember, small_face
 
@@ -41,16 +44,24 @@ def scenario():
         for point in FIRST:
             off = np.abs(np.subtract(on_screen(places(name)[point]), on_screen(true[point]))).max()
             assert off <= 1, (name, point, off)
-        proposed = len(face.facial_retarget.proposals)
-        assert proposed == face.facial_retarget.set_size - 5, proposed
+        proposed = face.facial_retarget.set_size - 5
+        yield from wait_until(lambda name=name: all_proposed(name), "the proposals", 20)
 
         if name == FACES[0]:
             accept = yield from find_button("facial_retarget.accept_points")
+        before = picture()
         yield from click(*accept)
         assert len(places(name)) == proposed + 5, (name, len(places(name)))
         yield from still()
+        assert (picture() != before)[:, : region("UI").x].sum() > 20 * proposed, "the view is not drawn anew"
         screenshot(name)
         yield from drag_mirrored(name)
+
+
+def all_proposed(name: str) -> bool:
+    """Whether all points of the set are placed or proposed."""
+    face = bpy.data.objects[name].facial_retarget
+    return len(face.points) + len(face.proposals) == face.set_size
 
 
 def places(name: str) -> dict[str, np.ndarray]:

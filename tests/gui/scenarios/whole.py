@@ -77,8 +77,9 @@ def place_points(name: str, true: dict[str, np.ndarray]):
     assert tuple(points(name)) == first, list(points(name))
     screenshot(f"five_points_{name.lower()}")
 
-    yield from press_button("facial_retarget.accept_points")
     face = bpy.data.objects[name].facial_retarget
+    yield from wait_until(lambda: len(face.points) + len(face.proposals) == face.set_size, "the proposals", 20)
+    yield from press_button("facial_retarget.accept_points")
     wanted = part("core.point_sets").POINT_SETS[face.point_set]
     assert set(points(name)) == {point.name for point in wanted}, len(points(name))
     assert not len(face.proposals)
