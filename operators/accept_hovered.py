@@ -12,7 +12,7 @@ class FACIAL_RETARGET_OT_accept_hovered(WithTool, Operator):
     """Place the proposed feature point under the mouse where it is proposed, or else the one whose turn it is"""
 
     bl_idname = "facial_retarget.accept_hovered"
-    bl_label = "Accept Point Under Mouse"
+    bl_label = "Accept Hovered Point"
     bl_options = {"REGISTER", "UNDO"}
 
     name: StringProperty(

@@ -12,7 +12,7 @@ class FACIAL_RETARGET_OT_drop_point(WithTool, Operator):
     """Remove the feature point under the mouse"""
 
     bl_idname = "facial_retarget.drop_point"
-    bl_label = "Remove Point Under Mouse"
+    bl_label = "Remove Hovered Point"
     bl_options = {"REGISTER", "UNDO"}
 
     name: StringProperty(name="Name", description="The point to remove", options={"SKIP_SAVE"})

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import bpy
+from bpy.app.translations import pgettext_iface
 from bpy.types import Context, Header, Object, UILayout, WorkSpaceTool
 
 from ..core.point_sets import POINT_INFOS, point_label
@@ -22,7 +23,7 @@ class FACIAL_RETARGET_TOOL_points(WorkSpaceTool):
         "Click on the active face to place the point whose turn it is.\n"
         "Drag a point along the surface, Ctrl-click removes it"
     )
-    bl_icon = "ops.transform.vertex_random"
+    bl_icon = "ops.mesh.polybuild_hover"
     bl_cursor = "CROSSHAIR"
     bl_keymap = (
         ("facial_retarget.place_point", {"type": "LEFTMOUSE", "value": "PRESS"}, None),
@@ -51,10 +52,13 @@ class FACIAL_RETARGET_TOOL_points(WorkSpaceTool):
             layout.label(text="Select a face", icon="INFO")
             return
         _prepare_soon(thing)
-        face = thing.facial_retarget
+        face, task = thing.facial_retarget, context.scene.facial_retarget
         layout.prop(face, "point_set")
-        layout.prop(context.scene.facial_retarget, "mirror_points", text="X", icon="MOD_MIRROR", toggle=True)
-        layout.label(text=_whose_turn(face.turn), icon="DECORATE_KEYFRAME")
+        row = layout.row(align=True)
+        row.prop(task, "mirror_points", text="X", icon="MOD_MIRROR", toggle=True)
+        row.prop(task.overlay, "show_names", text="", icon="FONT_DATA", toggle=True)
+        layout.operator("facial_retarget.accept_points" if len(face.proposals) else "facial_retarget.guess_points")
+        layout.label(text=_whose_turn(face.turn), icon="DECORATE_KEYFRAME", translate=False)
 
 
 def _prepare_soon(thing: Object) -> None:
@@ -76,9 +80,9 @@ def _prepare_soon(thing: Object) -> None:
 
 def _whose_turn(name: str) -> str:
     if not name:
-        return "All points of the set are placed or skipped"
-    meaning = POINT_INFOS[name].meaning
-    return f"Next: {point_label(name)} – {meaning}" if meaning else f"Next: {point_label(name)}"
+        return pgettext_iface("All points of the set are placed or skipped")
+    told = pgettext_iface("Next: {label} – {meaning}")
+    return told.format(label=pgettext_iface(point_label(name)), meaning=pgettext_iface(POINT_INFOS[name].meaning))
 
 
 _asked: set[int] = set()

@@ -3,7 +3,7 @@
 import bpy
 import numpy as np
 from mathutils import Matrix
-from stage import actor_face, empty_scene, grid, part, refused
+from stage import actor_face, demo_object, empty_scene, grid, part, refused
 
 empty_scene()
 operators, places = bpy.ops.facial_retarget, part("bridge.point_places")
@@ -94,6 +94,21 @@ assert len(stored.proposals) == 10, stored.proposals.keys()
 operators.drop_point(name="8.4")
 assert set(stored.points.keys()) == {"3.7", "3.12", "9.3"}
 assert {"8.3", "8.4"} <= set(stored.proposals.keys())
+
+# Halves that differ in shape: the partner is found through the surface, not by the coordinate.
+warped = demo_object(part("demo").warped_actor(np.random.default_rng(1), 4_500), "warped")
+bpy.context.view_layer.objects.active = warped
+bpy.context.view_layer.update()
+told = world(warped)
+eyes = np.linalg.norm(told["3.7"] - told["3.12"])
+warped.facial_retarget.points.clear()
+for name in ("9.3", "2.1", "3.7", "8.3", "4.3"):
+    operators.place_point(name=name, location=told[name])
+found = world(warped)
+for name in ("3.12", "8.4", "4.4"):
+    off = np.linalg.norm(found[name] - told[name]) / eyes
+    assert off < 0.1, (name, off)
+bpy.context.view_layer.objects.active = actor
 task.mirror_points = False
 
 # Return accepts the proposal of the point whose turn it is.

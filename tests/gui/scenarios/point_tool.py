@@ -39,17 +39,24 @@ def scenario():
     yield from drive.look("FRONT")
     yield from choose_tool()
 
+    preparing = stage.part("bridge.point_preparation").is_preparing
+    yield from drive.wait(20)
+    yield from drive.wait_until(lambda: not preparing(actor()), "the predictor is made")
+
     # Each click places the point whose turn it is, within a pixel, and is a step of the undo history.
-    placed = []
+    placed, proposed = [], [()]
     for offset in ([70, 90], [-70, 90], [0, -10]):
         name = actor().facial_retarget.turn
         yield from drive.click(*(middle() + offset))
         placed.append(name)
+        proposed.append(tuple(actor().facial_retarget.proposals.keys()))
+        assert name not in proposed[-1]
         assert actor().facial_retarget.points.keys() == placed
         assert np.abs(pixels(name) - middle() - offset).max() < 1, (pixels(name), offset)
     for count in (2, 1, 0, 1, 2, 3):
         yield from drive.undo() if count < 3 and count != len(actor().facial_retarget.points) + 1 else drive.redo()
         assert actor().facial_retarget.points.keys() == placed[:count]
+        assert tuple(actor().facial_retarget.proposals.keys()) == proposed[count]
         assert actor().facial_retarget.turn == (placed + [actor().facial_retarget.turn])[count]
 
     # A click on a point chooses it and changes nothing; a drag slides it; Esc on the way puts it back.
@@ -103,3 +110,19 @@ def scenario():
     assert not len(actor().facial_retarget.points)
     yield from drive.undo()
     assert actor().facial_retarget.points.keys() == placed[:2]
+
+    # Return accepts the proposal of the point whose turn it is, Shift Return all: one step each.
+    yield from drive.click(*(middle() + [0, -10]))
+    assert actor().facial_retarget.points.keys() == placed
+    name = actor().facial_retarget.turn
+    assert name in actor().facial_retarget.proposals
+    yield from drive.key("RET")
+    assert name in actor().facial_retarget.points
+    drive.screenshot("point_tool_proposals")
+    yield from drive.key("RET", shift=True)
+    assert actor().facial_retarget.turn == ""
+    assert not len(actor().facial_retarget.proposals)
+    drive.screenshot("point_tool_accepted")
+    yield from drive.undo()
+    yield from drive.undo()
+    assert actor().facial_retarget.points.keys() == placed
