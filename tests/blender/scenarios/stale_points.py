@@ -286,3 +286,17 @@ thing.facial_retarget.point_set = "DENSE"
 thing.facial_retarget.active_point = thing.facial_retarget.points.find("at 40")
 assert bpy.ops.facial_retarget.remove_point() == {"FINISHED"}
 assert len(places(thing)) == 5
+
+# A mesh of another file is not changed for good, and bears points all the same.
+thing = new_face()
+bpy.data.libraries.write(str(folder / "library.blend"), {thing.data})
+empty_scene()
+with bpy.data.libraries.load(str(folder / "library.blend"), link=True) as (there, here):
+    here.meshes = there.meshes[:1]
+linked = bpy.data.objects.new("linked", here.meshes[0])
+bpy.context.scene.collection.objects.link(linked)
+points.place_point(linked, "at 40", [40, 40, 40], [1.0, 0.0, 0.0])
+assert points.read_points(linked).vertices.tolist() == [[40, 40, 40]]
+bpy.context.view_layer.objects.active = linked
+assert bpy.ops.facial_retarget.refresh_points() == {"FINISHED"}
+assert points.read_points(linked).vertices.tolist() == [[40, 40, 40]]
