@@ -20,6 +20,9 @@ FIRST_POINTS = 5
 BAKED_KEY = "frame_{:04d}"
 """Name of the shape key that a bake makes for a scene frame."""
 
+FRAME_NAMES = "frame_####"
+"""The same as the pattern of names that the panel offers."""
+
 
 @dataclass(frozen=True)
 class Advice:
@@ -68,9 +71,9 @@ def first_frame(context: Context) -> int:
 
 
 def is_baked(thing: Object, frame: int) -> bool:
-    """Whether a bake has made a shape key for a scene frame on an object."""
+    """Whether an object has a bake: a shape key for a scene frame, or one of another kind."""
     keys = thing.data.shape_keys
-    return keys is not None and BAKED_KEY.format(frame) in keys.key_blocks
+    return bool(thing.facial_retarget.bake) or (keys is not None and BAKED_KEY.format(frame) in keys.key_blocks)
 
 
 def found_face(context: Context) -> Object | None:

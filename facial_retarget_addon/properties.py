@@ -22,8 +22,9 @@ from bpy.props import (
 from bpy.types import Context, Object, PropertyGroup, Scene, WindowManager
 
 from .core.methods import METHODS
-from .core.methods.settings import MASK_GAIN, SETTINGS, RegionGains
+from .core.methods.settings import MASK_GAIN, SETTINGS, BakeSettings, RegionGains
 from .core.point_sets import POINT_SETS, next_point, point_label, point_meaning
+from .guide import FRAME_NAMES
 from .preview_state import STATE
 
 LEVEL_GAINS = 6
@@ -220,6 +221,7 @@ class FACIAL_RETARGET_PG_face(PropertyGroup):
     )
     shown_key: StringProperty(name="Shown Shape Key", description="The shape key that a click in the list has set to 1")
     head: PointerProperty(name="Head", type=Object, description="The empty that shows how the head turns")
+    bake: StringProperty(name="Bake", description="The kind of the bake that the face plays; empty for none")
 
     @property
     def set_size(self) -> int:
@@ -368,6 +370,57 @@ class FACIAL_RETARGET_PG_mask(PropertyGroup):
         update=_tell("gains"),
         description="Strength of the motion where the weight is 1; where it is 0, nothing changes",
     )
+
+
+BAKES = [
+    ("frames", "Shape Keys", "A shape key per frame, each shown on its own frame: to edit and to mix"),
+    ("absolute", "Absolute Shape Keys", "A shape key per frame, all on one curve: plays many times as fast"),
+    ("compact", "Compact Shape Keys", "As few shape keys as the tolerance allows, each a region, with curves to edit"),
+    ("rig", "Own Shape Keys", "Curves of the shape keys that the target has: your own sliders"),
+    ("pc2", "PC2 Cache", "A file on disk that a Mesh Cache modifier plays: for long performances"),
+    ("mdd", "MDD Cache", "The same, as older programs read it"),
+]
+
+
+def _limits(name: str) -> dict[str, Any]:
+    """Default, range and tooltip of a number of `BakeSettings`."""
+    setting = next(setting for setting in fields(BakeSettings) if setting.name == name)
+    limits = setting.metadata
+    return {
+        "name": _label(name),
+        "default": setting.default,
+        "min": limits["low"],
+        "max": limits["high"],
+        "description": limits["help"],
+    }
+
+
+class FACIAL_RETARGET_PG_bake_how(PropertyGroup):
+    """What the retargeted frames become: `core.methods.settings.BakeSettings`."""
+
+    kind: EnumProperty(name="Bake As", description="What the frames become on the target", items=BAKES)
+    tolerance: FloatProperty(precision=4, step=0.1, **_limits("tolerance"))
+    smoothness: FloatProperty(**_limits("smoothness"))
+    residual: IntProperty(**_limits("residual"))
+
+
+class FACIAL_RETARGET_PG_bake(PropertyGroup):
+    """What the retargeted frames become."""
+
+    how: PointerProperty(type=FACIAL_RETARGET_PG_bake_how)
+    step: FloatProperty(
+        name="Step",
+        default=1.0,
+        min=0.05,
+        soft_max=10.0,
+        description="Scene frames from one baked frame to the next; below 1 for sub-frames",
+    )
+    pattern: StringProperty(
+        name="Names",
+        default=FRAME_NAMES,
+        description="Names of the shape keys of frames: the frame's number stands in place of the #",
+    )
+    cache: StringProperty(name="Cache", subtype="FILE_PATH", description="File that the cache becomes")
 
 
 class FACIAL_RETARGET_PG_cloning(PropertyGroup):
@@ -550,6 +603,7 @@ class FACIAL_RETARGET_PG_task(PropertyGroup):
     examples_checked: StringProperty(name="Checked", description="Tells the examples that the figures belong to")
     sculpting: PointerProperty(type=FACIAL_RETARGET_PG_sculpting)
     cloning: PointerProperty(type=FACIAL_RETARGET_PG_cloning)
+    bake: PointerProperty(type=FACIAL_RETARGET_PG_bake)
     normal_maps: PointerProperty(type=FACIAL_RETARGET_PG_normal_maps)
     overlay: PointerProperty(type=FACIAL_RETARGET_PG_overlay)
     method: EnumProperty(
@@ -605,6 +659,8 @@ CLASSES = (
     FACIAL_RETARGET_PG_regions,
     FACIAL_RETARGET_PG_mask,
     FACIAL_RETARGET_PG_cloning,
+    FACIAL_RETARGET_PG_bake_how,
+    FACIAL_RETARGET_PG_bake,
     FACIAL_RETARGET_PG_normal_maps,
     FACIAL_RETARGET_PG_overlay,
     FACIAL_RETARGET_PG_task,

@@ -33,6 +33,7 @@ CLASSES = (
     examples.FACIAL_RETARGET_UL_examples,
     examples.FACIAL_RETARGET_PT_examples,
     method.FACIAL_RETARGET_PT_retarget,
+    method.FACIAL_RETARGET_PT_bake,
     preview.FACIAL_RETARGET_UL_masks,
     preview.FACIAL_RETARGET_PT_preview,
     preview.FACIAL_RETARGET_PT_compare,

@@ -1,8 +1,9 @@
 """The method, its settings, the frames, and the button."""
 
-from bpy.types import Context, Panel
+from bpy.types import Context, Panel, UILayout
 
-from .tab import RetargetTab, Step
+from ..facial_retarget_addon.bake_cost import bake_cost
+from .tab import RetargetTab, Step, draw_text, filled
 
 
 class FACIAL_RETARGET_PT_retarget(Step, Panel):
@@ -26,6 +27,49 @@ class FACIAL_RETARGET_PT_retarget(Step, Panel):
         button = layout.row()
         button.scale_y = 1.5
         button.operator("facial_retarget.retarget", icon="PLAY")
+
+
+class FACIAL_RETARGET_PT_bake(RetargetTab, Panel):
+    """What the frames become, and what that costs."""
+
+    bl_label = "Bake"
+    bl_parent_id = "FACIAL_RETARGET_PT_retarget"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: Context) -> None:
+        """Draw the panel."""
+        layout = self.layout
+        layout.use_property_split, layout.use_property_decorate = True, False
+        task = context.scene.facial_retarget
+        bake = task.bake
+        layout.prop(bake.how, "kind")
+        for name in SETTINGS_OF.get(bake.how.kind, ()):
+            layout.prop(bake.how, name)
+        if bake.how.kind in ("frames", "absolute"):
+            layout.prop(bake, "pattern")
+        if bake.how.kind in ("pc2", "mdd"):
+            layout.prop(bake, "cache")
+        layout.prop(bake, "step")
+        if task.target is not None:
+            draw_cost(layout, context)
+
+
+SETTINGS_OF = {"compact": ("tolerance",), "rig": ("smoothness", "residual")}
+"""Kind of a bake -> the settings that it has."""
+
+
+def draw_cost(layout: UILayout, context: Context) -> None:
+    """What the bake will cost."""
+    task = context.scene.facial_retarget
+    chosen = context.scene if task.use_scene_range else task
+    frames = max(chosen.frame_end - chosen.frame_start + 1, 0)
+    cost = bake_cost(task.bake.how.kind, len(task.target.data.vertices), frames, task.bake.step)
+    if cost.disk:
+        draw_text(layout, context, filled("{size:.0f} MB on disk", size=cost.disk), icon="DISK_DRIVE")
+    else:
+        draw_text(layout, context, filled("At most {size:.0f} MB in the file", size=cost.file), icon="FILE_BLEND")
+    if cost.advice:
+        draw_text(layout, context, filled(cost.advice), icon="ERROR")
 
 
 class FACIAL_RETARGET_PT_settings(RetargetTab, Panel):

@@ -16,7 +16,7 @@ import numpy as np
 
 from facial_retarget_addon import demo, properties
 from facial_retarget_addon.bridge.background import finished
-from facial_retarget_addon.bridge.bake import write_frames
+from facial_retarget_addon.bridge.bakes.frames import write_frames
 from facial_retarget_addon.bridge.meshes import neutral_mesh, new_face, read_polygons, read_positions
 from facial_retarget_addon.bridge.points import write_points
 from facial_retarget_addon.bridge.retargeting import retarget_steps

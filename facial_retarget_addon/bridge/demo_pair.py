@@ -9,7 +9,7 @@ from ..core.arrays import FloatArray, Progress
 from ..demo import DemoFace, actor, child, performance, targets
 from ..files.mesh_file import MeshFile
 from .background import Steps, in_thread
-from .bake import write_frames
+from .bakes.frames import write_frames
 from .donors import STANDING
 from .meshes import new_face, read_positions
 from .points import write_points

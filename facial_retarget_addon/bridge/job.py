@@ -22,7 +22,7 @@ from ..files.meshes import write_mesh
 from ..files.run import Inputs, read_inputs
 from ..files.whole import Aside, appear_whole, written_aside
 from .background import Steps, in_thread, part
-from .bake import write_frames
+from .bakes.frames import write_frames
 from .base_object import show_triangles
 from .beside import Beside
 from .examples import write_example
@@ -33,7 +33,7 @@ from .meshes import new_face
 from .performance import read_frames
 from .points import write_points
 from .settings import read_task_settings, write_task_settings
-from .task import frame_range, read_heads, read_problem
+from .task import frame_times, read_heads, read_problem
 
 
 def save_job_steps(context: Context, path: Path) -> Steps[None]:
@@ -45,7 +45,7 @@ def save_job_steps(context: Context, path: Path) -> Steps[None]:
     """
     task = context.scene.facial_retarget
     problem, settings, heads = read_problem(context), read_task_settings(task), read_heads(context)
-    frames = yield from part(read_frames(context, task.source, frame_range(context)), 0.0, 0.8)
+    frames = yield from part(read_frames(context, task.source, frame_times(context)), 0.0, 0.8)
     maps = map_output(task)
     method, wanted = task.method, [_chosen(file) for file in (task.output, task.report, task.page)]
 

@@ -10,6 +10,7 @@ from bpy.types import Object, ShapeKey
 
 from ..core.arrays import FloatArray
 from ..core.errors import RetargetError
+from .bakes.names import baked_keys
 from .shape_keys import PREVIEW_KEY, ensure_basis, ensure_key, find_key, key_displacement, write_key
 
 LONGEST = 63
@@ -34,18 +35,28 @@ class KeyTraits(NamedTuple):
 
 def check_editable(thing: Object) -> None:
     """RetargetError if an object's shape keys cannot be written: it is linked, or its keys are absolute."""
+    check_local(thing)
+    check_relative(thing)
+
+
+def check_local(thing: Object) -> None:
+    """RetargetError if an object is linked from another file: its shape keys cannot be written."""
     if not thing.data.is_editable:
         raise RetargetError(
             f"object {thing.name!r} is linked from another file, expected one whose mesh can be changed"
         )
-    check_relative(thing)
 
 
-def check_targets(sources: Collection[Object], targets: Collection[Object]) -> None:
-    """RetargetError if targets cannot be written, or one has its mesh in common: writing one would change the other."""
+def check_targets(sources: Collection[Object], targets: Collection[Object], over_bake: bool = False) -> None:
+    """RetargetError if targets cannot be written, or one has its mesh in common: writing one would change the other.
+
+    over_bake : what is written replaces an earlier bake, so that one of absolute shape keys is no hindrance.
+    """
     holders = {thing.data.name_full: thing for thing in sources}
     for thing in targets:
-        check_editable(thing)
+        check_local(thing)
+        if not over_bake or set(key_names(thing)) - set(baked_keys(thing)):
+            check_relative(thing)
         mesh = thing.data.name_full
         if mesh in holders:
             raise RetargetError(

@@ -9,7 +9,7 @@ from bpy.types import ID, Object
 from ..core.arrays import FloatArray
 from ..core.errors import RetargetError
 from ..fap_controls import CONTROLS
-from .bake import remove_frames
+from .bakes.frames import remove_bake
 from .curves import ensure_curves, find_curves, remove_curves, write_curve
 from .head_empty import clear_head
 from .shape_keys import remove_keys, value_path
@@ -20,7 +20,7 @@ MOTION, CHANNELS = "Imported Motion", "Imported Channels"
 
 def clear_motion(thing: Object) -> None:
     """Take an earlier import or bake off a face. What it moved rests; the artist's own curves and keys stay."""
-    remove_frames(thing)
+    remove_bake(thing)
     clear_head(thing)
     moved = _drop_group(thing, MOTION)
     for control in CONTROLS:

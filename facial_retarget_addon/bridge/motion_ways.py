@@ -22,7 +22,7 @@ from ..files.motion.read import Motion
 from ..files.pages.fap_report import mute_warnings
 from .arkit_keys import find_arkit_keys
 from .background import Steps, in_thread
-from .bake import write_frames
+from .bakes.frames import write_frames
 from .controls import Shapes, has_controls, shape_steps, shown_faps, write_controls
 from .curves import ensure_curves, remove_curves, write_curve
 from .fap_faces import write_shapes

@@ -19,7 +19,7 @@ from ..files.images import suffix_of
 from ..files.normal_map_files import textured, write_frame_maps
 from ..files.whole import Aside, appear_whole, written_aside
 from .background import Steps, in_thread, part
-from .bake import write_frames
+from .bakes.frames import write_frames
 from .heads import head_parts, read_head
 from .key_sets import check_targets
 from .map_nodes import MapSequence, wire

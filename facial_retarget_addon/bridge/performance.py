@@ -45,7 +45,7 @@ def check_visible(things: Sequence[Object], view_layer: ViewLayer) -> None:
             )
 
 
-def read_frame(context: Context, things: Sequence[Object], frame: int) -> FloatArray:
+def read_frame(context: Context, things: Sequence[Object], frame: float) -> FloatArray:
     """(V, 3) float32 positions of a face and its parts at one frame, in face space; the scene is left at that frame.
 
     Raises
@@ -53,7 +53,7 @@ def read_frame(context: Context, things: Sequence[Object], frame: int) -> FloatA
     RetargetError : if one is hidden (Blender does not evaluate it then), or its vertices change in number.
     """
     check_visible(things, context.view_layer)
-    context.scene.frame_set(frame)
+    context.scene.frame_set(int(frame // 1), subframe=frame % 1)
     return head_now(things, context.evaluated_depsgraph_get())
 
 
@@ -63,7 +63,7 @@ def check_range(frames: range) -> None:
         raise RetargetError(f"the frame range ends at {frames.stop - 1} before it starts at {frames.start}")
 
 
-def each_frame(scene: Scene, frames: Sequence[int], read: Callable[[int, int], None]) -> Steps[None]:
+def each_frame(scene: Scene, frames: Sequence[float], read: Callable[[int, float], None]) -> Steps[None]:
     """Call `read(i, frame)` for each frame, one at each step.
 
     The scene's frame is put back at the end, and when the steps are closed half-way.
@@ -74,7 +74,7 @@ def each_frame(scene: Scene, frames: Sequence[int], read: Callable[[int, int], N
             yield (i + 1) / len(frames), f"Reading frame {frame}"
 
 
-def read_frames(context: Context, face: Object, frames: range) -> Steps[FloatArray]:
+def read_frames(context: Context, face: Object, frames: Sequence[float]) -> Steps[FloatArray]:
     """Read the performance of a face and its parts; returns (F, V, 3) float32 in face space.
 
     Raises
@@ -85,7 +85,7 @@ def read_frames(context: Context, face: Object, frames: range) -> Steps[FloatArr
     things = (face, *head_parts(face))
     positions = np.empty((len(frames), sum(len(thing.data.vertices) for thing in things), 3), np.float32)
 
-    def read(i: int, frame: int) -> None:
+    def read(i: int, frame: float) -> None:
         positions[i] = read_frame(context, things, frame)
 
     yield from each_frame(context.scene, frames, read)

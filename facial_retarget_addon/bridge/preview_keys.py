@@ -13,7 +13,7 @@ import numpy as np
 from bpy.types import Depsgraph, Object
 
 from ..core.arrays import FloatArray
-from .bake import is_frame_key
+from .bakes.names import baked_keys
 from .shape_keys import PREVIEW_KEY, ensure_basis, ensure_key, find_key, key_displacement, write_key
 
 
@@ -70,9 +70,10 @@ def _baked(thing: Object, depsgraph: Depsgraph) -> FloatArray | float:
     values = np.empty(len(blocks), np.float32)
     blocks.foreach_get("value", values)
     added: FloatArray | float = 0.0
+    baked = set(baked_keys(thing))
     for row in np.flatnonzero(values).tolist():
         key = keys.key_blocks[row]
-        if is_frame_key(key.name) and not key.mute:
+        if key.name in baked and not key.mute:
             added = added + values[row] * key_displacement(key).astype(np.float32)
     return added
 

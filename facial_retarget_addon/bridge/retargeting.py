@@ -9,22 +9,23 @@ import bpy
 from bpy.types import Context, PropertyGroup
 
 from ..core.arrays import Progress
+from ..core.base.regions import eye_separation
 from ..core.level_retargeter import LevelMotion
 from ..core.retarget import Result, level_motions, retarget
 from ..files.pages.report import report_json, report_page
 from ..files.whole import written_whole
 from .background import Steps, in_thread, part
-from .bake import write_head_frames
+from .bakes.bake import bake_steps, read_wish
 from .findings import write_frame_findings
 from .heads import head_parts, read_head
 from .key_sets import check_targets
 from .level_object import show_levels
 from .performance import read_frames
 from .settings import read_task_settings
-from .task import frame_range, read_problem
+from .task import frame_times, read_problem
 
-READING, COMPUTING = 0.2, 0.75
-"""Shares of the time that reading and computing take."""
+READING, COMPUTING, BAKING = 0.2, 0.7, 0.1
+"""Shares of the time that reading, computing and baking take."""
 
 
 def retarget_steps(context: Context) -> Steps[dict[str, Any]]:
@@ -38,12 +39,12 @@ def retarget_steps(context: Context) -> Steps[dict[str, Any]]:
     """
     yield 0.0, "Reading the faces"
     task = context.scene.facial_retarget
-    method, settings = task.method, read_task_settings(task)
+    method, settings, wish = task.method, read_task_settings(task), read_wish(task)
     problem = read_problem(context)
     yield 0.0, "Reading the faces"
     head = read_head(task.target)
-    check_targets((task.source, *head_parts(task.source)), head.things)
-    frames = frame_range(context)
+    check_targets((task.source, *head_parts(task.source)), head.things, over_bake=True)
+    frames = frame_times(context)
     source = yield from part(read_frames(context, task.source, frames), 0.0, READING)
 
     with_page = bool(task.page)
@@ -56,10 +57,11 @@ def retarget_steps(context: Context) -> Steps[dict[str, Any]]:
         return result, report_page(result.report, problem, source, result.frames, result.levels)
 
     result, page = yield from part(in_thread(compute), READING, COMPUTING)
-    yield READING + COMPUTING, "Writing"
+    unit = eye_separation(problem.target.mesh, problem.target.points)
+    figures = yield from part(bake_steps(head, unit, result.frames, frames, wish), READING + COMPUTING, BAKING)
+    result.report["bake"] = figures
     _write_report(task, result, page)
-    write_head_frames(head, result.frames, frames.start)
-    write_frame_findings(task.target, task.source, result, frames.start)
+    write_frame_findings(task.target, task.source, result, frames.first)
     return result.report
 
 

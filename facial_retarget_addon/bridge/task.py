@@ -9,6 +9,7 @@ from bpy.types import Context, Object, PropertyGroup
 from ..core.arrays import FloatArray
 from ..core.errors import RetargetError
 from ..core.problem import Face, Problem
+from .bakes.times import FrameTimes
 from .base_object import read_base
 from .examples import read_examples
 from .gains import read_gains
@@ -18,10 +19,21 @@ from .raycast import available_caster
 
 
 def frame_range(context: Context) -> range:
-    """The scene frames that the task retargets."""
+    """The whole scene frames that the task retargets."""
     task = context.scene.facial_retarget
     chosen = context.scene if task.use_scene_range else task
     return range(chosen.frame_start, chosen.frame_end + 1)
+
+
+def frame_times(context: Context) -> FrameTimes:
+    """The scene frames that the task retargets, in the steps of the bake.
+
+    Raises
+    ------
+    RetargetError : if the range is empty.
+    """
+    frames = frame_range(context)
+    return FrameTimes(frames.start, frames.stop - 1, context.scene.facial_retarget.bake.step)
 
 
 def _chosen_faces(task: PropertyGroup) -> tuple[Object, Object]:

@@ -182,6 +182,8 @@ def test_a_wrinkle_mask_rises_smoothly_from_nothing_to_full() -> None:
 
 
 class Fitted(NamedTuple):
+    """A fitted pair, its performance, and its target."""
+
     retargeter: LevelRetargeter
     problem: Problem
     performance: np.ndarray

@@ -13,7 +13,7 @@ NAME = "bl_ext.user_default.facial_retarget"
 
 
 def part(name: str) -> ModuleType:
-    """A module of the installed extension, such as "bridge.bake"."""
+    """A module of the installed extension, such as "bridge.bakes.frames"."""
     return import_module(f"{NAME}.facial_retarget_addon.{name}")
 
 

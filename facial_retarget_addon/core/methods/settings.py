@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 
 from ..errors import RetargetError
 
-T = TypeVar("T", bound="Settings | RegionGains | MapSettings")
+T = TypeVar("T", bound="Settings | RegionGains | MapSettings | BakeSettings")
 
 
 def _setting(default: Any, help: str, **limits: Any) -> Any:
@@ -176,6 +176,27 @@ class MapSettings:
     )
     convention: str = _setting(
         "opengl", "Green points up, as OpenGL and Blender have it, or down as DirectX", choices=("opengl", "directx")
+    )
+
+
+@dataclass(frozen=True)
+class BakeSettings:
+    """What frames become."""
+
+    kind: str = _setting(
+        "frames",
+        "frames: a shape key per frame; absolute: the same on one evaluation-time curve; compact: as few shape keys as "
+        "the tolerance allows; rig: curves of the shape keys that are there; pc2, mdd: a cache on disk",
+        choices=("frames", "absolute", "compact", "rig", "pc2", "mdd"),
+    )
+    tolerance: float = _setting(
+        0.005, "How far a frame of a compact bake may be off, in distances between the eyes", low=0.0001, high=0.5
+    )
+    smoothness: float = _setting(
+        0.05, "How much the curves of a rig are kept from bending from frame to frame", low=0.0, high=100.0
+    )
+    residual: int = _setting(
+        0, "Frames that share one more shape key for what a rig's own cannot do; 0: no such keys", low=0, high=100000
     )
 
 

@@ -102,7 +102,7 @@ advised("Go back to Object Mode", "RETARGET", "object.mode_set")
 bpy.ops.object.mode_set(mode="OBJECT")
 
 # Baked: by the frame that the range begins with.
-part("bridge.shape_keys").ensure_key(target, part("bridge.bake").key_name(context.scene.frame_start))
+part("bridge.shape_keys").ensure_key(target, f"frame_{context.scene.frame_start:04d}")
 advised("Play it: then export it, or correct it and retarget again", "EXPORT", "screen.animation_play")
 assert done() == ["FACES", "POINTS", "EXAMPLES", "RETARGET"]
 task.use_scene_range, task.frame_start = False, 100

@@ -10,7 +10,9 @@ from stage import empty_scene, grid, part, refused, wave
 
 folder = Path(sys.argv[1])
 empty_scene()
-bake, examples, points, base_object = (part(f"bridge.{name}") for name in ("bake", "examples", "points", "base_object"))
+bake, examples, points, base_object = (
+    part(f"bridge.{name}") for name in ("bakes.frames", "examples", "points", "base_object")
+)
 jobs, core_points = part("files.job"), part("core.points")
 task = bpy.context.scene.facial_retarget
 task.source, task.target = grid("source"), grid("target", 8)
@@ -59,7 +61,7 @@ masks = part("bridge.task").read_problem(bpy.context).gains.masks
 assert list(masks) == ["scar", "left half"]
 assert np.array_equal(masks["left half"].weights.nonzero()[0], [3, 5, 9])
 assert np.array_equal(masks["left half"].weights[[3, 5, 9]], [0.25] * 3)
-read = part("bridge.performance").read_frames(bpy.context, task.source, part("bridge.task").frame_range(bpy.context))
+read = part("bridge.performance").read_frames(bpy.context, task.source, part("bridge.task").frame_times(bpy.context))
 np.testing.assert_allclose(part("bridge.background").finished(read), frames, atol=2e-7)
 
 bpy.ops.facial_retarget.save_job(filepath=str(folder / "second.toml"))

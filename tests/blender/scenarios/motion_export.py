@@ -66,7 +66,7 @@ for options in ({}, {"source": "MESH"}):
 
 # Where the head moves in the vertices, that is found and taken out.
 turning = face.frames(values, turn_head=True)
-part("bridge.bake").write_frames(actor, part("bridge.meshes").from_face_space(actor, turning), START)
+part("bridge.bakes.frames").write_frames(actor, part("bridge.meshes").from_face_space(actor, turning), START)
 measured = conversions.low_level(exported("moving.fap", source="MOVING"))
 shown[head] = True
 np.testing.assert_allclose(measured[:, shown], values[:, shown], atol=2.0)

@@ -28,7 +28,7 @@ def pair() -> None:
     task.source, task.target = textured(actor, "actor"), textured(child, "child")
     performance = demo.performance(actor)
     order = np.argsort(np.abs(performance - performance[0]).max(axis=(1, 2)))
-    part("bridge.bake").write_frames(task.source, performance[order[[0, len(order) // 2, -1]]], 1)
+    part("bridge.bakes.frames").write_frames(task.source, performance[order[[0, len(order) // 2, -1]]], 1)
     bpy.context.scene.frame_start, bpy.context.scene.frame_end = 1, 3
     task.hierarchical.levels = 4
     bpy.context.scene.frame_set(1)

@@ -18,7 +18,7 @@ def read(first: int = 1, last: int = 4) -> np.ndarray:
 
 # Shape keys.
 frames = wave(face, 4)
-part("bridge.bake").write_frames(face, frames, 1)
+part("bridge.bakes.frames").write_frames(face, frames, 1)
 context.scene.frame_set(3, subframe=0.25)
 np.testing.assert_allclose(read(), frames, atol=2e-7)
 assert (context.scene.frame_current, context.scene.frame_subframe) == (3, 0.25)

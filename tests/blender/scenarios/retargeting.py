@@ -14,7 +14,7 @@ from stage import empty_scene, part, shown, snapshot
 folder = Path(sys.argv[1])
 empty_scene()
 context = bpy.context
-meshes, points, examples, bake = (part(f"bridge.{name}") for name in ("meshes", "points", "examples", "bake"))
+meshes, points, examples, bake = (part(f"bridge.{name}") for name in ("meshes", "points", "examples", "bakes.frames"))
 retargeting, background = part("bridge.retargeting"), part("bridge.background")
 demo = part("demo")
 
@@ -44,7 +44,7 @@ def baked(thing: bpy.types.Object) -> np.ndarray:
     """(COUNT, V, 3) what the baked keys hold."""
     frames = np.empty((COUNT, 3 * len(thing.data.vertices)), np.float32)
     for i, flat in enumerate(frames):
-        thing.data.shape_keys.key_blocks[bake.key_name(task.frame_start + i)].points.foreach_get("co", flat)
+        thing.data.shape_keys.key_blocks[f"frame_{task.frame_start + i:04d}"].points.foreach_get("co", flat)
     return frames.reshape(COUNT, -1, 3)
 
 

@@ -13,7 +13,7 @@ folder = Path(sys.argv[1])
 empty_scene()
 context = bpy.context
 scene, task = context.scene, context.scene.facial_retarget
-demo, heads, bake = part("demo"), part("bridge.heads"), part("bridge.bake")
+demo, heads, bake = part("demo"), part("bridge.heads"), part("bridge.bakes.frames")
 actor, warped = demo.actor(4_500), demo.warped_actor(np.random.default_rng(1), 4_500)
 FIRST, COUNT = 5, 4
 performance = demo.performance(actor)[20 : 20 + 12 * COUNT : 12]
@@ -44,7 +44,7 @@ whole, one = demo_object(actor, "whole"), demo_object(warped, "one")
 bake.write_frames(whole, performance, FIRST)
 place = Matrix.LocRotScale((1, 2, 3), Euler((0.3, 0.2, 0.1)), (2, 2, 2))
 apart, several = moved(demo_object(actor, "apart", True), place), moved(demo_object(warped, "several", True), place)
-bake.write_head_frames(heads.read_head(apart), performance, FIRST)
+bake.write_head_frames(heads.read_head(apart), performance, range(FIRST, FIRST + len(performance)))
 np.testing.assert_allclose(read(apart), performance, atol=1e-5)
 task.source, task.target = whole, one
 assert bpy.ops.facial_retarget.retarget() == {"FINISHED"}

@@ -35,7 +35,7 @@ def policy_warnings() -> dict[str, list[str]]:
 
 
 def part(name: str) -> ModuleType:
-    """A module of the installed extension, such as "bridge.bake"."""
+    """A module of the installed extension, such as "bridge.bakes.frames"."""
     return import_module(f"{NAME}.facial_retarget_addon.{name}")
 
 

@@ -1,0 +1,1 @@
+"""What becomes of frames in Blender: shape keys, curves of a rig, caches."""

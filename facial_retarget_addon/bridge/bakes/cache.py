@@ -1,0 +1,62 @@
+"""Frames as a cache on disk that a Mesh Cache modifier plays: the .blend stays small, any length plays fast."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import bpy
+import numpy as np
+from bpy.types import Object
+
+from ...core.arrays import FloatArray
+from ...files.frames import add_frames
+from ...files.whole import Aside
+from ..heads import Head
+from ..meshes import from_face_space
+from .frames import STILL, remove_bake
+
+MODIFIER = "Facial Retarget"
+
+
+def cache_paths(head: Head, path: Path, frames: FloatArray) -> dict[Object, Path]:
+    """Each object that frames (F, V, 3) move -> its cache: the face's is `path`, a part's has its name behind it."""
+    found = {head.things[0]: path}
+    for thing, own, _ in list(head.slices())[1:]:
+        moves = frames[:, own] - head.face.mesh.vertices[own].astype(np.float32)
+        if np.abs(moves).max(initial=0.0) > STILL * head.face.mesh.size:
+            found[thing] = path.with_name(f"{path.stem}.{bpy.path.clean_name(thing.name)}{path.suffix}")
+    return found
+
+
+def add_caches(aside: Aside, head: Head, paths: dict[Object, Path], frames: FloatArray) -> None:
+    """Write the caches of a head's frames, in each object's own coordinates."""
+    face = head.things[0]
+    for thing, own, _ in head.slices():
+        if thing in paths:
+            moves = frames[:, own] - head.face.mesh.vertices[own].astype(np.float32)
+            places = from_face_space(face, frames[:, own]) if thing == face else head.positions(thing, moves)
+            add_frames(aside, places, paths[thing], None)
+
+
+def play_caches(paths: dict[Object, Path], times: Sequence[float]) -> None:
+    """Let each object play its cache from the first scene frame on; shape keys of an earlier bake are removed."""
+    step = times[1] - times[0] if len(times) > 1 else 1
+    for thing, path in paths.items():
+        remove_bake(thing)
+        modifier = thing.modifiers.get(MODIFIER) or thing.modifiers.new(MODIFIER, "MESH_CACHE")
+        thing.modifiers.move(thing.modifiers.find(MODIFIER), 0)
+        modifier.cache_format = path.suffix[1:].upper()
+        modifier.filepath = str(path)
+        modifier.interpolation = "LINEAR"
+        modifier.forward_axis, modifier.up_axis = "POS_Y", "POS_Z"
+        modifier.time_mode, modifier.play_mode = "FRAME", "SCENE"
+        modifier.frame_start, modifier.frame_scale = times[0], 1 / step
+
+
+def stop_caches(things: Sequence[Object]) -> None:
+    """Take away what plays the caches of an earlier bake; the files stay."""
+    for thing in things:
+        modifier = thing.modifiers.get(MODIFIER)
+        if modifier is not None and modifier.type == "MESH_CACHE":
+            thing.modifiers.remove(modifier)

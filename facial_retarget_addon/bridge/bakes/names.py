@@ -1,0 +1,49 @@
+"""Names of what a bake makes, and which shape keys an earlier one has made."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+from bpy.types import Object
+
+from ...core.errors import RetargetError
+from ..shape_keys import find_key
+
+RECORD = "facial_retarget_baked"
+"""Property of a shape-key block: the names of the keys that a bake has made, one a line."""
+LONGEST = 63
+"""Bytes of a name that Blender keeps."""
+_FRAME = re.compile(r"frame_-?\d{3,}(\.\d+)?")
+
+
+def frame_key_name(pattern: str, frame: float) -> str:
+    """Name of the shape key of a scene frame: the # of a pattern become its digits, a part of a frame follows them.
+
+    Raises
+    ------
+    RetargetError : if the pattern has no #, or the name is longer than Blender keeps.
+    """
+    holes = re.search("#+", pattern)
+    if holes is None:
+        raise RetargetError(f"the pattern of names {pattern!r} has no #, expected some where the frame's number goes")
+    whole, part = divmod(frame, 1)
+    digits = f"{int(whole):0{len(holes.group())}d}" + (f"{part:.3f}"[1:].rstrip("0") if part else "")
+    name = pattern[: holes.start()] + digits + pattern[holes.end() :]
+    if len(name.encode()) > LONGEST:
+        raise RetargetError(f"shape key {name!r} has a name of {len(name.encode())} bytes, expected at most {LONGEST}")
+    return name
+
+
+def baked_keys(thing: Object) -> list[str]:
+    """Names of an object's shape keys that a bake has made."""
+    keys = thing.data.shape_keys
+    if keys is None:
+        return []
+    recorded = set(str(keys.get(RECORD, "")).split("\n"))
+    return [key.name for key in keys.key_blocks if key.name in recorded or _FRAME.fullmatch(key.name)]
+
+
+def record_bake(thing: Object, names: Iterable[str]) -> None:
+    """Remember which shape keys a bake has made on an object."""
+    thing.data.shape_keys[RECORD] = "\n".join(name for name in names if find_key(thing, name) is not None)
