@@ -8,8 +8,8 @@ from time import perf_counter
 
 import bpy
 import numpy as np
-
 from facial_retarget_addon.bridge.bake import key_name, write_frames
+
 from facial_retarget_addon.bridge.meshes import new_object
 from facial_retarget_addon.bridge.shape_keys import ensure_key, write_key
 from facial_retarget_addon.core.acting.fap_face import fit_fap_face

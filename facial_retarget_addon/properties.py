@@ -162,7 +162,7 @@ class FACIAL_RETARGET_PG_finding(PropertyGroup):
         items=[("FRAME", "Frame", "A baked frame"), ("KEY", "Shape Key", "A cloned shape key")],
         description="What is in trouble",
     )
-    frame: IntProperty(name="Frame", description="The scene frame")
+    frame: FloatProperty(name="Frame", description="The scene frame")
     note: StringProperty(name="Figures", description="What is wrong, in words")
     trouble: FloatProperty(name="Trouble", description="All figures together, by which the worst come first")
     torn: IntProperty(name="Torn Edges", description="Edges stretched beyond 3 times where the source is calm")

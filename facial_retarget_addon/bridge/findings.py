@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from base64 import b85decode, b85encode
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 from zlib import compress, decompress
 
@@ -26,18 +26,18 @@ class Finding(NamedTuple):
     spots: Spots
 
 
-def write_frame_findings(thing: Object, source: Object, result: Result, first: int) -> None:
+def write_frame_findings(thing: Object, source: Object, result: Result, times: Sequence[float]) -> None:
     """Keep what was found in baked frames, in the place of an earlier bake's; and which source vertex is whose.
 
     Parameters
     ----------
-    first : the scene frame of the result's first.
+    times : the scene frames of the result's.
     """
     face = thing.facial_retarget
     _drop(face, lambda finding: finding.kind == "FRAME")
-    for i, spots in enumerate(result.spots):
+    for i, (time, spots) in enumerate(zip(times, result.spots, strict=True)):
         row = {what: figures[i] for what, figures in result.per_frame.items()}
-        _add(face, f"Frame {first + i}", Finding(row, spots), first + i)
+        _add(face, f"Frame {time}", Finding(row, spots), time)
     bad = sum(finding.kind == "FRAME" for finding in face.findings)
     face.findings_text = f"{bad} of {len(result.spots)} frames have trouble"
     face.findings_source, face.counterpart = source, packed(result.counterpart)
@@ -66,7 +66,7 @@ def show_finding(scene: Scene, thing: Object) -> None:
         shown.value = 0.0
     face.shown_key = ""
     if finding.kind == "FRAME":
-        scene.frame_set(finding.frame)
+        scene.frame_set(int(finding.frame // 1), subframe=finding.frame % 1)
         return
     key = find_key(thing, finding.name)
     if key is not None:
@@ -140,7 +140,7 @@ def unpacked(text: str) -> IntArray:
     return np.frombuffer(decompress(b85decode(text)), np.int32).astype(np.int64) if text else np.empty(0, np.int64)
 
 
-def _add(face: PropertyGroup, name: str, found: Finding, frame: int | None) -> None:
+def _add(face: PropertyGroup, name: str, found: Finding, frame: float | None) -> None:
     """Add a finding that is worth a word."""
     figures = trouble(found.row)
     if not any(value >= SLIGHT for value in figures.values()):

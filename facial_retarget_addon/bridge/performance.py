@@ -57,9 +57,9 @@ def read_frame(context: Context, things: Sequence[Object], frame: float) -> Floa
     return head_now(things, context.evaluated_depsgraph_get())
 
 
-def check_range(frames: range) -> None:
+def check_range(frames: Sequence[float]) -> None:
     """RetargetError if there is no frame."""
-    if not len(frames):
+    if isinstance(frames, range) and not len(frames):
         raise RetargetError(f"the frame range ends at {frames.stop - 1} before it starts at {frames.start}")
 
 

@@ -13,7 +13,7 @@ from ..core.base.regions import eye_separation
 from ..core.level_retargeter import LevelMotion
 from ..core.retarget import Result, level_motions, retarget
 from ..files.pages.report import report_json, report_page
-from ..files.whole import written_whole
+from ..files.whole import Aside, written_whole
 from .background import Steps, in_thread, part
 from .bakes.bake import bake_steps, read_wish
 from .findings import write_frame_findings
@@ -58,10 +58,14 @@ def retarget_steps(context: Context) -> Steps[dict[str, Any]]:
 
     result, page = yield from part(in_thread(compute), READING, COMPUTING)
     unit = eye_separation(problem.target.mesh, problem.target.points)
-    figures = yield from part(bake_steps(head, unit, result.frames, frames, wish), READING + COMPUTING, BAKING)
-    result.report["bake"] = figures
-    _write_report(task, result, page)
-    write_frame_findings(task.target, task.source, result, frames.first)
+    bake = yield from part(bake_steps(head, unit, result.frames, frames, wish), READING + COMPUTING, BAKING)
+    result.report["bake"] = bake.figures
+    yield READING + COMPUTING + BAKING, "Writing"
+    with written_whole() as aside:
+        _add_report(aside, task, result, page)
+        bake.add_files(aside)
+    bake.write()
+    write_frame_findings(task.target, task.source, result, frames)
     return result.report
 
 
@@ -86,10 +90,9 @@ def level_steps(context: Context) -> Steps[list[str]]:
     return [level.name for level in levels]
 
 
-def _write_report(task: PropertyGroup, result: Result, page: bytes) -> None:
-    """Write the figures and the page where the panel says; together or not at all."""
-    with written_whole() as aside:
-        if task.report:
-            aside.place(Path(bpy.path.abspath(task.report))).write_bytes(report_json(result.report))
-        if task.page:
-            aside.place(Path(bpy.path.abspath(task.page))).write_bytes(page)
+def _add_report(aside: Aside, task: PropertyGroup, result: Result, page: bytes) -> None:
+    """Write the figures and the page where the panel says."""
+    if task.report:
+        aside.place(Path(bpy.path.abspath(task.report))).write_bytes(report_json(result.report))
+    if task.page:
+        aside.place(Path(bpy.path.abspath(task.page))).write_bytes(page)

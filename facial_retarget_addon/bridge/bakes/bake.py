@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -19,12 +19,12 @@ from ...core.reduction.compact import compact
 from ...core.reduction.keyed import KeyedMotion
 from ...core.reduction.naming import region_names
 from ...core.reduction.rig_fit import fit_to_keys, residual_keys
-from ...files.whole import written_whole
+from ...files.whole import Aside
 from ..background import Steps, in_thread
 from ..heads import Head
 from ..settings import read_group
 from .cache import add_caches, cache_paths, play_caches, stop_caches
-from .frames import remove_bake, write_head_frames
+from .frames import check_frames, write_head_frames
 from .keyed import RigKeys, rig_keys, write_keyed
 
 PREFIX = "retargeted_"
@@ -57,20 +57,23 @@ def read_wish(task: PropertyGroup) -> Wish:
     return Wish(read_group(BakeSettings, task.bake.how), task.bake.pattern, task.bake.cache)
 
 
-def bake_steps(
-    head: Head, unit: float, frames: FloatArray, times: Sequence[float], wish: Wish
-) -> Steps[dict[str, Any]]:
-    """Bake frames (F, V, 3) of a head as the wish has it; an earlier bake, of whatever kind, is replaced.
+class PreparedBake(NamedTuple):
+    """A bake of which nothing is written yet.
 
-    Closing the steps at any time leaves everything as it was: scene data is written at the very end.
+    figures : for the report. add_files : writes its files among others that appear together. write : changes the scene.
+    """
+
+    figures: dict[str, Any]
+    add_files: Callable[[Aside], None]
+    write: Callable[[], None]
+
+
+def bake_steps(head: Head, unit: float, frames: FloatArray, times: Sequence[float], wish: Wish) -> Steps[PreparedBake]:
+    """Prepare a bake of frames (F, V, 3) of a head as the wish has it; it will replace an earlier one of any kind.
 
     Parameters
     ----------
     unit : distance between the eyes, in the head's coordinates.
-
-    Returns
-    -------
-    Figures for the report.
 
     Raises
     ------
@@ -78,27 +81,49 @@ def bake_steps(
     """
     kind = wish.settings.kind
     figures: dict[str, Any] = {"kind": kind, "frames": len(frames)}
+    yield 0.0, "Preparing the bake"
     if kind in ("pc2", "mdd"):
-        yield from _cache_steps(head, frames, times, wish.cache_path())
-    elif kind in ("compact", "rig"):
+        paths = cache_paths(head, wish.cache_path(), frames)
+        return PreparedBake(
+            figures,
+            lambda aside: add_caches(aside, head, paths, frames),
+            lambda: _write(head, kind, lambda: play_caches(paths, times)),
+        )
+    if kind in ("compact", "rig"):
         keyed, names, made = yield from _keyed_steps(head, unit, frames, wish.settings)
-        stop_caches(head.things)
-        write_keyed(head, names, keyed, times, made)
-        figures |= {
-            "keys": len(names),
-            "new_keys": made,
-            "error": float(keyed.errors.max(initial=0.0) / unit),
-            "worst": float(keyed.worst.max(initial=0.0) / unit),
-            "bytes": int(keyed.shapes[len(names) - made :].nbytes + keyed.curves.nbytes),
-            "bytes_as_frames": int(frames.astype(np.float32, copy=False).nbytes),
-            "per_frame": {"error": (keyed.errors / unit).tolist(), "worst": (keyed.worst / unit).tolist()},
-        }
-    else:
-        stop_caches(head.things)
-        write_head_frames(head, frames, times, wish.pattern, absolute=kind == "absolute")
-        figures["keys"] = len(frames)
+        figures |= _keyed_figures(keyed, unit, len(names), made, frames)
+        return PreparedBake(
+            figures, _no_files, lambda: _write(head, kind, lambda: write_keyed(head, names, keyed, times, made))
+        )
+    check_frames(head, frames, times, wish.pattern, absolute=kind == "absolute")
+    figures["keys"] = len(frames)
+    return PreparedBake(
+        figures,
+        _no_files,
+        lambda: _write(head, kind, lambda: write_head_frames(head, frames, times, wish.pattern, kind == "absolute")),
+    )
+
+
+def _no_files(_: Aside) -> None:
+    """Nothing on disk."""
+
+
+def _write(head: Head, kind: str, write: Callable[[], None]) -> None:
+    stop_caches(head.things)
+    write()
     head.things[0].facial_retarget.bake = kind
-    return figures
+
+
+def _keyed_figures(keyed: KeyedMotion, unit: float, keys: int, made: int, frames: FloatArray) -> dict[str, Any]:
+    return {
+        "keys": keys,
+        "new_keys": made,
+        "error": float(keyed.errors.max(initial=0.0) / unit),
+        "worst": float(keyed.worst.max(initial=0.0) / unit),
+        "bytes": int(keyed.shapes[keys - made :].nbytes + keyed.curves.nbytes),
+        "bytes_as_frames": int(4 * frames.size),
+        "per_frame": {"error": (keyed.errors / unit).tolist(), "worst": (keyed.worst / unit).tolist()},
+    }
 
 
 def _keyed_steps(
@@ -138,14 +163,3 @@ def _onto_rig(
         return keyed, list(rig.names), 0
     more = residual_keys(moves, keyed, ranges)
     return more, [*rig.names, *(f"{PREFIX}residual_{number}" for number in range(1, len(ranges) + 1))], len(ranges)
-
-
-def _cache_steps(head: Head, frames: FloatArray, times: Sequence[float], path: Path) -> Steps[None]:
-    paths = cache_paths(head, path, frames)
-    with written_whole() as aside:
-        yield 0.5, "Writing the cache"
-        add_caches(aside, head, paths, frames)
-    for thing in head.things:
-        remove_bake(thing)
-    stop_caches(head.things)
-    play_caches(paths, times)

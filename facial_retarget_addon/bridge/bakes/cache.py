@@ -14,19 +14,16 @@ from ...files.frames import add_frames
 from ...files.whole import Aside
 from ..heads import Head
 from ..meshes import from_face_space
-from .frames import STILL, remove_bake
+from .frames import moved_objects, remove_bake
 
 MODIFIER = "Facial Retarget"
 
 
 def cache_paths(head: Head, path: Path, frames: FloatArray) -> dict[Object, Path]:
     """Each object that frames (F, V, 3) move -> its cache: the face's is `path`, a part's has its name behind it."""
-    found = {head.things[0]: path}
-    for thing, own, _ in list(head.slices())[1:]:
-        moves = frames[:, own] - head.face.mesh.vertices[own].astype(np.float32)
-        if np.abs(moves).max(initial=0.0) > STILL * head.face.mesh.size:
-            found[thing] = path.with_name(f"{path.stem}.{bpy.path.clean_name(thing.name)}{path.suffix}")
-    return found
+    parts = [thing for thing in moved_objects(head, frames) if thing != head.things[0]]
+    names = {thing: f"{path.stem}.{bpy.path.clean_name(thing.name)}{path.suffix}" for thing in parts}
+    return {head.things[0]: path} | {thing: path.with_name(name) for thing, name in names.items()}
 
 
 def add_caches(aside: Aside, head: Head, paths: dict[Object, Path], frames: FloatArray) -> None:

@@ -58,23 +58,37 @@ def write_head_frames(
     ------
     RetargetError : for a bad pattern; if an object has shape keys of its own, which absolute ones would turn off.
     """
-    face = head.things[0]
-    _check_count(face, frames[:, : head.starts[1]])
-    moved = [(face, slice(0, head.starts[1]))]
-    for thing, own, _ in list(head.slices())[1:]:
-        moves = frames[:, own] - head.face.mesh.vertices[own].astype(np.float32)
-        if np.abs(moves).max(initial=0.0) > STILL * head.face.mesh.size:
-            moved.append((thing, own))
-        else:
+    check_frames(head, frames, times, pattern, absolute)
+    face, action = head.things[0], None
+    moved = moved_objects(head, frames)
+    for thing in head.things:
+        if thing not in moved:
             remove_bake(thing)
-    for thing, _ in moved:
-        _check_own_keys(thing, absolute)
-    action = None
-    for thing, own in moved:
+    for thing, own in moved.items():
         moves = frames[:, own] - head.face.mesh.vertices[own].astype(np.float32)
         places = from_face_space(face, frames[:, own]) if thing == face else head.positions(thing, moves)
         _write_own(thing, places, times, pattern, absolute, action)
         action = face.data.shape_keys.animation_data.action
+
+
+def check_frames(head: Head, frames: FloatArray, times: Sequence[float], pattern: str, absolute: bool) -> None:
+    """RetargetError if `write_head_frames` would refuse."""
+    _check_count(head.things[0], frames[:, : head.starts[1]])
+    for thing in moved_objects(head, frames):
+        _check_own_keys(thing, absolute)
+    for time in (times[0], times[-1]):
+        frame_key_name(pattern, time)
+
+
+def moved_objects(head: Head, frames: FloatArray) -> dict[Object, slice]:
+    """The face, and each part that frames (F, V, 3) move -> its vertices among the head's."""
+    slices = list(head.slices())
+    moved = {slices[0][0]: slices[0][1]}
+    for thing, own, _ in slices[1:]:
+        moves = frames[:, own] - head.face.mesh.vertices[own].astype(np.float32)
+        if np.abs(moves).max(initial=0.0) > STILL * head.face.mesh.size:
+            moved[thing] = own
+    return moved
 
 
 def _check_count(thing: Object, frames: FloatArray) -> None:

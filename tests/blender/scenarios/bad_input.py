@@ -9,7 +9,7 @@ from stage import empty_scene, grid, part, refused, wave
 
 folder = Path(sys.argv[1])
 empty_scene()
-bake, examples, points = (part(f"bridge.{name}") for name in ("bake", "examples", "points"))
+bake, examples, points = (part(f"bridge.{name}") for name in ("bakes.frames", "examples", "points"))
 retarget = bpy.ops.facial_retarget.retarget
 task = bpy.context.scene.facial_retarget
 scene = bpy.context.scene
