@@ -42,7 +42,7 @@ def _is_shown(context: Context, thing: Object) -> bool:
     face = thing.facial_retarget
     finding = face.findings[face.active_finding]
     if finding.kind == "FRAME":
-        return context.scene.frame_current == finding.frame
+        return abs(context.scene.frame_current_final - finding.frame) < 1e-3
     keys = thing.data.shape_keys
     return keys is not None and finding.name in keys.key_blocks and keys.key_blocks[finding.name].value > 0.5
 
