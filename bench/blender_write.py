@@ -8,8 +8,9 @@ from time import perf_counter
 
 import bpy
 import numpy as np
-from facial_retarget_addon.bridge.bake import key_name, write_frames
 
+from facial_retarget_addon.bridge.bakes.frames import write_frames
+from facial_retarget_addon.bridge.bakes.names import frame_key_name
 from facial_retarget_addon.bridge.meshes import new_object
 from facial_retarget_addon.bridge.shape_keys import ensure_key, write_key
 from facial_retarget_addon.core.acting.fap_face import fit_fap_face
@@ -78,4 +79,4 @@ def bake(thing: bpy.types.Object, frames: np.ndarray) -> None:
 def write_key_data(thing: bpy.types.Object, frames: np.ndarray) -> None:
     """The way of Blender's documentation."""
     for i, positions in enumerate(frames):
-        ensure_key(thing, key_name(i + 1)).data.foreach_set("co", positions.ravel())
+        ensure_key(thing, frame_key_name("frame_####", i + 1)).data.foreach_set("co", positions.ravel())

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 import bpy
 import numpy as np
-from facial_retarget_addon.bridge.bake import write_frames
 
 from facial_retarget_addon import demo, properties
 from facial_retarget_addon.bridge.background import finished
+from facial_retarget_addon.bridge.bakes.frames import write_frames
 from facial_retarget_addon.bridge.examples import write_example
 from facial_retarget_addon.bridge.meshes import new_object
 from facial_retarget_addon.bridge.points import write_points

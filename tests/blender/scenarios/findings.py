@@ -36,7 +36,7 @@ figures = {
     "source_lip_gap_percent": [40.0, 5.0, 0.0, 0.0],
 }
 result = SimpleNamespace(spots=spots, per_frame=figures, counterpart=whole)
-findings.write_frame_findings(face, source, result, 5)
+findings.write_frame_findings(face, source, result, range(5, 5 + len(result.spots)))
 known = face.facial_retarget
 assert [(one.name, one.kind, one.frame) for one in known.findings] == [
     ("Frame 8", "FRAME", 8),
@@ -97,7 +97,7 @@ assert known.findings_source == bpy.data.objects["source"]
 
 # Another bake replaces the frames and leaves the keys; a lost key goes with the next cloning.
 findings.write_frame_findings(
-    face, bpy.data.objects["source"], SimpleNamespace(**vars(result) | {"spots": spots[:1]}), 1
+    face, bpy.data.objects["source"], SimpleNamespace(**vars(result) | {"spots": spots[:1]}), [1]
 )
 assert [one.name for one in known.findings] == ["joy", "anger"]
 assert known.findings_text == "0 of 1 frames have trouble"

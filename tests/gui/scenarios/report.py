@@ -65,10 +65,10 @@ def scenario():
         frames[frame, :, 1] += way * near
     judged = quality.Quality(mesh, mesh, np.arange(len(mesh.vertices)))
     judged.add(frames[[0, 0, 0]], frames)
-    part("bridge.bake").write_frames(target, frames, 1)
+    part("bridge.bakes.frames").write_frames(target, frames, 1)
     result = type("Result", (), {})()
     result.spots, result.per_frame, result.counterpart = judged.spots, judged.per_frame(), np.arange(len(mesh.vertices))
-    findings.write_frame_findings(target, source, result, 1)
+    findings.write_frame_findings(target, source, result, range(1, 1 + len(result.spots)))
     known = target.facial_retarget
     assert len(known.findings) == 2, known.findings_text
     choose(target)
