@@ -48,14 +48,14 @@ def changed(before: dict[str, np.ndarray]) -> list[str]:
 
 def example_button(operator: str, example: str, side: str):
     """Press the button of an operator for an example on one face."""
-    command = f"facial_retarget.{operator}(example=\"{example}\", side='{side}'"
+    command = f'facial_retarget.{operator}(example="{example}", side="{side}"'
     x, y = yield from find_button(command, across=(0.3, 0.75))
     yield from click(x, y)
 
 
 def choose(rows: int, example: str, side: str, letter: str):
     """Open the menu some rows above Strength, and choose what has a letter of its own."""
-    command = f"facial_retarget.scale_example(example=\"{example}\", side='{side}'"
+    command = f'facial_retarget.scale_example(example="{example}", side="{side}"'
     x, y = yield from find_button(command, across=(0.3, 0.75))
     yield from click(x, y + rows * ROW)
     yield from key(letter)
@@ -144,7 +144,7 @@ def scenario():
     assert changed(cloned) == []
 
     # The slider of Strength acts at once: half of it.
-    x, y = yield from find_button("facial_retarget.scale_example(example=\"joy\", side='TARGET'", across=(0.3, 0.75))
+    x, y = yield from find_button('facial_retarget.scale_example(example="joy", side="TARGET"', across=(0.3, 0.75))
     yield from click(x, y)
     screenshot("strength")
     yield from move(x + 215, y - 102)
