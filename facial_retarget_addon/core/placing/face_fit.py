@@ -27,8 +27,6 @@ EASE = 0.01
 """Differences of so many eye separations are no bending."""
 TRUSTED = 0.1
 """Distance at which a place of the surface counts half."""
-BOLDEST = 3.0
-"""A face may differ this many times as much from the average as faces usually do."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,19 +90,12 @@ def fit_face(
     columns = (3 * rows[:, None] + np.arange(3)).ravel()
     among = template.covariance[np.ix_(columns, columns)]
     exact = np.repeat(exactness**2, 3)
-    boldness = _boldness(among + np.diag(exact), known.ravel()) if len(rows) else 1.0
-    differences = _condition(boldness * template.covariance[:, columns], boldness * among, exact, known.ravel())
+    differences = _condition(template.covariance[:, columns], among, exact, known.ravel())
     fit = FaceFit(template, pose, differences)
     free = np.setdiff1d(np.arange(len(template.names)), rows)
     for _ in range(ROUNDS):
-        fit = FaceFit(template, pose, _towards_surface(fit, free, columns, known, exact, boldness, samples))
+        fit = FaceFit(template, pose, _towards_surface(fit, free, columns, known, exact, samples))
     return fit
-
-
-def _boldness(covariance: FloatArray, known: FloatArray) -> float:
-    """How many times as much this face differs from the average as faces do: squared, 1 or more."""
-    squared = float(known @ np.linalg.solve(covariance, known)) / len(known)
-    return float(np.clip(squared, 1.0, BOLDEST**2))
 
 
 def _condition(cross_covariance: FloatArray, covariance: FloatArray, slack: FloatArray, seen: FloatArray) -> FloatArray:
@@ -120,7 +111,6 @@ def _towards_surface(
     columns: IntArray,
     known: FloatArray,
     exact: FloatArray,
-    boldness: float,
     samples: SurfaceSamples,
 ) -> FloatArray:
     """(N, 3) differences that know where the surface lies next to the points that are free."""
@@ -132,7 +122,7 @@ def _towards_surface(
     # Columns of the covariance that belong to what is seen: the known coordinates, then along the normals.
     count = len(template.names)
     along = np.einsum("npk,pk->np", template.covariance.reshape(3 * count, count, 3)[:, rows], outwards)
-    cross_covariance = boldness * np.concatenate([template.covariance[:, columns], along], axis=1)
+    cross_covariance = np.concatenate([template.covariance[:, columns], along], axis=1)
     of_normals = np.einsum("pkn,pk->pn", cross_covariance.reshape(count, 3, -1)[rows], outwards)
     covariance = np.concatenate([cross_covariance[columns], of_normals])
     slack = np.concatenate([exact, SLACK**2 * (1 + (away / TRUSTED) ** 2)])

@@ -62,18 +62,23 @@ class FrontView:
     mesh : the head.
     faces : (S,) of the skin, all of them.
     outside : (S,) which of them can be seen from outside the head.
-    caster : casts rays on these faces alone.
+    caster : casts rays on these faces alone. balls : on the eyeballs, None where there are none.
     """
 
     mesh: TriMesh
     faces: IntArray
     outside: BoolArray
     caster: RayCaster
+    balls: RayCaster | None
 
     @classmethod
-    def of(cls, mesh: TriMesh, faces: IntArray, outside: BoolArray, make_caster: CasterFactory) -> FrontView:
-        """Of some faces (S,) of a mesh; outside (F,)."""
-        return cls(mesh, faces, outside[faces], make_caster(TriMesh(mesh.vertices, mesh.faces[faces])))
+    def of(
+        cls, mesh: TriMesh, faces: IntArray, outside: BoolArray, balls: IntArray, make_caster: CasterFactory
+    ) -> FrontView:
+        """Of some faces (S,) of a mesh, and those of its eyeballs (B,); outside (F,)."""
+        skin = make_caster(TriMesh(mesh.vertices, mesh.faces[faces]))
+        eyes = make_caster(TriMesh(mesh.vertices, mesh.faces[balls])) if len(balls) else None
+        return cls(mesh, faces, outside[faces], skin, eyes)
 
     def points(self, seen: Seen, names: tuple[str, ...], rows: IntArray) -> FeaturePoints:
         """Points of these names at some rows of what was seen; those off the skin are left out."""
@@ -88,11 +93,14 @@ class FrontView:
         """
         origins = fit.pose.apply(np.stack([x, y, np.full_like(x, z + _BEFORE)], axis=1))
         forward = fit.pose.rotation[:, 2]
-        hits = self.caster.nearest(origins, np.broadcast_to(-forward, origins.shape))
+        directions = np.broadcast_to(-forward, origins.shape)
+        hits = self.caster.nearest(origins, directions)
         own = self.faces[hits.face]
         normals = self.mesh.face_normals[own] @ fit.pose.rotation
         depth = hits.distance / fit.pose.scale - _BEFORE
         skin = hits.found & self.outside[hits.face] & (normals[:, 2] > 0) & (depth < DEEP)
+        if self.balls is not None:
+            skin &= self.balls.nearest(origins, directions).distance > hits.distance
         return Seen(skin, own, hits.weights, normals)
 
 

@@ -10,7 +10,7 @@ from ..mesh import TriMesh
 from ..raycast import CasterFactory
 from .pieces import members
 
-TURNS = 5
+TURNS = 8
 """Ways out that are tried around a face's normal, beside the normal itself."""
 LEAN = np.radians(50.0)
 """How far these lean away from it."""

@@ -32,11 +32,13 @@ SIZE = 0.25
 """An eye separation, as a share of the mesh's size, where too few points tell it."""
 LEAST = 3
 """Known points from which others can be predicted without looking for the face."""
-NO_FACE = 0.35
+NO_FACE = 0.34
 """A surface that is this unlike the average face is none."""
 MOST_SKINS, LEAST_SKIN = 3, 0.1
 """Pieces on which a face is looked for: how many of the largest, and the least share of the mesh's area."""
 PUPILS = ("3.5", "3.6")
+LARGEST = 0.3
+"""An eyeball is smaller than this share of the mesh's size."""
 BALL, BALL_OFF, BALL_SIZES = 0.2, 0.25, (0.1, 0.5)
 """Of eyeballs: how far behind the pupil the centre is expected, how far it may be off, and which radii count."""
 CORNERS = ("3.7", "3.11", "3.12", "3.8")
@@ -248,7 +250,9 @@ class Predictor:
         key = tuple(int(piece) for piece in pieces)
         if key not in self._skins:
             faces = np.flatnonzero(np.isin(self._pieces[self._mesh.faces[:, 0]], pieces))
-            self._skins[key] = Skin(self._mesh, faces, self._outside, self._make_caster)
+            balls = np.concatenate([np.empty(0, np.int64), *(ball.faces for ball in self._balls)])
+            balls = np.setdiff1d(balls, faces)
+            self._skins[key] = Skin(self._mesh, faces, self._outside, balls, self._make_caster)
         return self._skins[key]
 
     def _on_skin(self, fit: FaceFit, landmarks: FeaturePoints, skin: Skin, names: Sequence[str]) -> FeaturePoints:
@@ -281,7 +285,7 @@ class Predictor:
         return [
             _Ball(*fit_sphere(mesh.vertices[own]), np.flatnonzero(owner == piece))
             for piece, own in enumerate(members(self._pieces))
-            if is_ball(mesh.vertices[own]) and (owner == piece).any()
+            if is_ball(mesh.vertices[own]) and np.ptp(mesh.vertices[own], axis=0).max() < LARGEST * mesh.size
         ]
 
 

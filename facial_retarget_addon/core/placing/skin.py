@@ -33,9 +33,11 @@ COVERED = 0.3
 class Skin:
     """The pieces of a mesh that hold its feature points."""
 
-    def __init__(self, mesh: TriMesh, faces: IntArray, outside: BoolArray, make_caster: CasterFactory) -> None:
-        """Of these faces (S,); outside : (F,) those of the mesh that are seen from outside."""
-        self._mesh, self._outside, self._make_caster = mesh, outside, make_caster
+    def __init__(
+        self, mesh: TriMesh, faces: IntArray, outside: BoolArray, balls: IntArray, make_caster: CasterFactory
+    ) -> None:
+        """Of these faces (S,); outside : (F,) those of the mesh seen from outside; balls : (B,) its eyeballs' faces."""
+        self._mesh, self._outside, self._balls, self._make_caster = mesh, outside, balls, make_caster
         self._faces = faces
 
     @cached_property
@@ -59,7 +61,7 @@ class Skin:
     @cached_property
     def view(self) -> FrontView:
         """The skin alone, as it is seen from the front."""
-        return FrontView.of(self._mesh, self._faces, self._outside, self._make_caster)
+        return FrontView.of(self._mesh, self._faces, self._outside, self._balls, self._make_caster)
 
     @cached_property
     def surface(self) -> TriMesh:
