@@ -42,6 +42,8 @@ class Pointed:
         ------
         RetargetError : if no face is active, or it is not seen in this view, or its surface cannot be read.
         """
+        if context.region_data is None:
+            raise RetargetError("the mouse is not over a 3D view: choose the Feature Points tool and click on the face")
         self.mouse = mouse_of(event)
         thing, self.name = point_under(context, self.mouse)
         self.thing = thing or needed_face(context)
@@ -84,7 +86,7 @@ class PointDrag:
         self._name = self._at.name or self._thing.facial_retarget.turn
         place = self._at.place()
         if place is None:
-            raise RetargetError(f"{self._thing.name} is not under the mouse")
+            raise RetargetError(_beside(context, self._at))
         if not self._name:
             raise RetargetError("All points of the set are placed or skipped: drag them, or choose a larger set")
         self._place = place
@@ -126,6 +128,18 @@ class PointDrag:
         else:
             face = self._thing.facial_retarget
             face.active_point = face.points.find(self._name)
+
+
+def _beside(context: Context, at: Pointed) -> str:
+    """What a click beside the active face means: the other one of source and target, which becomes the active one."""
+    task = context.scene.facial_retarget
+    for other in (task.source, task.target):
+        if other not in (None, at.thing) and other.visible_get(viewport=context.space_data):
+            surface = ShownSurface(other, context.evaluated_depsgraph_get())
+            if surface.under(at.view, at.mouse) is not None:
+                context.view_layer.objects.active = other
+                return f"{other.name} is the active face now: the next click places a point on it"
+    return f"{at.thing.name} is not under the mouse"
 
 
 def placed_point(context: Context, event: Event) -> str:

@@ -23,8 +23,10 @@ def active_face(context: Context) -> Object | None:
 
 
 def needed_face(context: Context) -> Object:
-    """The mesh object that the tool works on; RetargetError without one."""
+    """The mesh object that the tool works on; RetargetError without one, or if it must not be changed."""
     thing = active_face(context)
     if thing is None:
         raise RetargetError("no mesh object is active: select the face first")
+    if not thing.is_editable:
+        raise RetargetError(f"object {thing.name!r} is linked from another file: make it local to give it points")
     return thing
