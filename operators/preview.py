@@ -5,8 +5,8 @@ from typing import Any
 from bpy.props import EnumProperty
 from bpy.types import Context, Operator
 
-from ..facial_retarget_addon.core.methods import METHODS
 from ..facial_retarget_addon.preview_state import STATE
+from ..facial_retarget_addon.properties import METHOD_ITEMS
 from .in_steps import InSteps
 from .polls import OnTask
 
@@ -82,9 +82,7 @@ class FACIAL_RETARGET_OT_show_method(Operator):
     bl_label = "Show Method"
     bl_options = {"REGISTER", "UNDO"}
 
-    method: EnumProperty(
-        name="Method", items=[(name, name, text) for name, text in METHODS.items()], description="The method to choose"
-    )
+    method: EnumProperty(name="Method", items=METHOD_ITEMS, description="The method to choose")
 
     def execute(self, context: Context) -> set[str]:
         """Choose it."""
