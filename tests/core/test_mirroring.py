@@ -137,3 +137,20 @@ def test_the_eyes_are_each_others_image():
         assert len(opposite) == 1
         assert opposite[0] in eyes
         assert opposite[0] != eye
+
+
+@pytest.mark.parametrize(("head", "most"), [("makehuman", 0.05), ("ict", 0.06)])
+def test_heads_of_other_artists_have_twins_in_every_part(head, most, shared_data):
+    """What these heads' left half does is what their right half does in the partner shape, as their artists made it."""
+    data = np.load(shared_data / f"{head}_dev.npz", allow_pickle=True)
+    counts, corners = (data[name].astype(np.int64) for name in ("face_counts", "face_indices"))
+    mesh = TriMesh.from_polygons(data["vertices"].astype(float), counts, corners)
+    names = [str(name) for name in data["expr_names"]]
+    mirror = fit_mirror(mesh, counts, corners, NOTHING)
+    assert mirror.exact.all()
+    swapped = {name: name.replace("_L", "_R").replace("left", "right") for name in names}
+    pairs = [(name, other) for name, other in swapped.items() if name != other and other in names]
+    assert len(pairs) > 8
+    for name, other in pairs:
+        moves, image = (data["expr_delta"][names.index(one)].astype(float) for one in (name, other))
+        assert np.linalg.norm(mirror.flipped(moves) - image) < most * np.linalg.norm(image), name
