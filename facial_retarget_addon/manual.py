@@ -22,7 +22,7 @@ CLONING, MPEG4 = "blender.html#clone-shape-keys", "blender.html#mpeg-4-face"
 _OPERATORS = {
     STEPS["POINTS"]: ("*point*", "*proposal*", "accept*", "start_placing", "*part", "*parts", "show_base"),
     STEPS["EXAMPLES"]: ("*example*", "rough_out*", "stop_sculpting"),
-    STEPS["RETARGET"]: ("retarget", "*levels", "*preview*", "*mask*", "stop"),
+    STEPS["RETARGET"]: ("retarget", "*levels", "*preview*", "compare", "show_method", "*mask*", "stop"),
     STEPS["EXPORT"]: ("export_gltf", "load_job", "save_job", "*maps*"),
     CLONING: ("*clone*", "add_actor", "resolve*", "find_corrected"),
     MPEG4: ("*shapes", "*controls", "*motion"),

@@ -137,4 +137,8 @@ def _source_now(task: PropertyGroup, depsgraph: Depsgraph) -> FloatArray:
     """
     things = whole_head(task.source)
     check_visible(things, depsgraph.view_layer)
+    if depsgraph.mode == "RENDER":
+        hidden = [thing.name for thing in things if thing.hide_render]
+        if hidden:
+            raise RetargetError(f"object {hidden[0]!r} is hidden in renders, expected it visible: it is not evaluated")
     return head_now(things, depsgraph)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from copy import copy
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -72,9 +73,12 @@ class LevelRetargeter:
     def adjusted(self, settings: LevelSettings) -> LevelRetargeter:
         """The same fit with other strengths of the levels, the detail and the examples."""
         gains = tuple(settings.gain(level) for level in range(len(self._strengths.gains)))
-        strengths = Strengths(gains, settings.detail_scale)
-        again = LevelRetargeter(self._pair, self._make_motion, strengths, self._make_fine_motion, self._parts)
-        again.measure(self._measured)
+        again = copy(self)
+        for made in ("report", "_up_to_each_level", "_fine_motion"):
+            again.__dict__.pop(made, None)
+        again._strengths = Strengths(gains, settings.detail_scale)
+        if again._strengths != self._strengths:
+            again.plain = self._make_motion(again._strengths)
         again.learn(self._examples, settings.example_strength)
         return again
 

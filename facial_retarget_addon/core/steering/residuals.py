@@ -60,8 +60,10 @@ class ExampleResiduals:
         at_base = weights.transpose(1, 0, 2).reshape(count, frames * size).astype(np.float32)
         local = (self.spread @ at_base).reshape(-1, frames, size)
         steered: FloatArray = carried * self.strength
-        for m, residual in enumerate(self.residual):
-            steered += local[:, :, m].T[:, :, None] * residual
+        added = np.empty_like(steered)
+        for share, residual in zip(np.ascontiguousarray(local.transpose(2, 1, 0)), self.residual, strict=True):
+            np.multiply(share[:, :, None], residual, out=added)
+            steered += added
         return steered
 
 

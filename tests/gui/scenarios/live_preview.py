@@ -87,7 +87,7 @@ def scenario():
     before = shown(target())
     area("PROPERTIES").spaces.active.context = "DATA"
     yield from wait()
-    slider = yield from find_button('key_blocks["surprise"].value', "WINDOW", area("PROPERTIES"), (0.5, 0.7, 0.8))
+    slider = yield from find_button('key_blocks["surprise"].value', "WINDOW", area("PROPERTIES"), (0.62,))
     yield from drag(slider, (slider[0] + 60, slider[1]))
     assert source().data.shape_keys.key_blocks["surprise"].value > 0.1
     assert motion(before) > 0.01, motion(before)
@@ -124,12 +124,12 @@ def scenario():
     yield from wait()
     np.testing.assert_allclose(shown(target()), before, atol=1e-5 * np.ptp(rest))
     screenshot("compared")
-    yield from press_button("facial_retarget.show_method(method='feature_points')")
+    yield from press_button('facial_retarget.show_method(method="feature_points")')
     yield from wait_until(lambda: state().method == "feature_points", "the method")
     yield from wait()
     assert motion(before) > 0.002, motion(before)
     screenshot("other_method")
-    yield from press_button("facial_retarget.show_method(method='hierarchical')")
+    yield from press_button('facial_retarget.show_method(method="hierarchical")')
     yield from wait_until(lambda: state().method == "hierarchical", "the method")
     yield from wait()
     np.testing.assert_allclose(shown(target()), before, atol=1e-5 * np.ptp(rest))
