@@ -235,6 +235,11 @@ class FACIAL_RETARGET_PG_face(PropertyGroup):
         return sum(info.name in placed for info in POINT_SETS[self.point_set])
 
     @property
+    def placed_beyond(self) -> int:
+        """How many others are placed."""
+        return len(self.points) - self.placed_of_set
+
+    @property
     def turn(self) -> str:
         """The name of the point whose turn it is to be placed; "" if none of the set is left."""
         return next_point(self.point_set, self.points.keys(), self.skipped.keys()) or ""

@@ -31,7 +31,7 @@ class FACIAL_RETARGET_OT_refresh_points(OnFace, Operator):
             shown = ", ".join(f"{name} by {settled.moved[name]:.3g}" for name in worst[:SHOWN])
             said.append(f"{len(worst)} moved with the surface ({shown}{', ...' if len(worst) > SHOWN else ''})")
         if settled.lost:
-            said.append(f"{', '.join(settled.lost)} lost their surface and are only proposed now")
+            said.append(f"only proposed now, as the surface is gone: {', '.join(settled.lost)}")
         what = "; ".join(said) or "all are where they were"
         self.report(
             {"WARNING" if settled.lost else "INFO"}, f"{thing.name}: {len(thing.facial_retarget.points)} points; {what}"

@@ -60,8 +60,11 @@ class FACIAL_RETARGET_PT_points(Step, Panel):
         row = layout.row()
         row.label(text=thing.name, icon="MESH_DATA", translate=False)
         row.prop(face, "point_set", text="")
-        counted = {"placed": face.placed_of_set, "wanted": face.set_size}
-        layout.label(text=filled("{placed} of {wanted} placed", **counted), translate=False)
+        counted = {"placed": face.placed_of_set, "wanted": face.set_size, "others": face.placed_beyond}
+        text = (
+            "{placed} of {wanted} placed, and {others} others" if face.placed_beyond else "{placed} of {wanted} placed"
+        )
+        layout.label(text=filled(text, **counted), translate=False)
         if face.stale_points:
             box = layout.box()
             draw_text(box, context, filled("The mesh has changed since the points were placed"), "ERROR")

@@ -54,7 +54,7 @@ assert not len(face.proposals)
 place("9.3", "2.1", "8.3")
 assert face.points.keys() == list(sets.FIRST_FIVE)
 assert face.proposals.keys() == FMC[5:]
-assert (face.placed_of_set, face.set_size) == (5, 48)
+assert (face.placed_of_set, face.set_size, face.placed_beyond) == (5, 48, 0)
 positions = part("bridge.meshes").read_positions(thing.data).astype(float)
 told = points.read_proposals(thing)
 off = np.linalg.norm(told.positions(positions) - truth.subset(told.names).positions(positions), axis=1)
@@ -125,6 +125,8 @@ points.place_point(thing, "wart", [3, 3, 3], [1.0, 0.0, 0.0])
 prediction.update_predictions(thing)
 assert face.proposals.keys() == FMC[6:]
 assert [point.title for point in face.points][-2:] == ["8.4  Right Mouth Corner", "wart"]
+
+assert (face.placed_of_set, face.set_size, face.placed_beyond) == (6, 48, 1)
 
 # Guessed from nothing: the face is found by its shape alone, and one point placed moves the others.
 face.points.clear()
