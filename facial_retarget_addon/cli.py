@@ -1,4 +1,4 @@
-"""facial-retarget: do a job, check a job, play MPEG-4 motion, make or clone shapes, or see the built-in demonstration.
+"""facial-retarget: do or check a job, play MPEG-4 motion, make or clone shapes, propose points, or see the demo.
 
 Exit status 0 when all went well, 2 with one line on standard error for bad input, 130 for Ctrl-C.
 """
@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from .core.arrays import Progress, no_progress
 from .core.errors import Cancelled, RetargetError
+from .core.point_sets import POINT_SETS
 from .terminal import clear, progress_on
 
 if TYPE_CHECKING:
@@ -59,10 +60,12 @@ def _parser() -> argparse.ArgumentParser:
     _add_markers_arguments(markers)
     morph = commands.add_parser("morph", help="make a generic head into another by its feature points alone")
     _add_morph_arguments(morph)
+    points = commands.add_parser("points", help="propose the feature points that a face lacks, or guess them all")
+    _add_points_arguments(points)
     demo = commands.add_parser("demo", help="write the built-in faces and their jobs, and do them")
     demo.add_argument("folder", type=Path, nargs="?", default=Path("demo"), help="where to (default: demo)")
     demo.set_defaults(command=_demo)
-    for command in (run, check, fap, shapes, clone, markers, morph, demo):
+    for command in (run, check, fap, shapes, clone, markers, morph, points, demo):
         command.add_argument("--quiet", action="store_true", default=argparse.SUPPRESS, help="no progress")
     return parser
 
@@ -135,6 +138,14 @@ def _add_morph_arguments(morph: argparse.ArgumentParser) -> None:
     morph.add_argument("--to-points", type=Path, required=True, help="the wanted points (.json)")
     morph.add_argument("--out", type=Path, required=True, help="the morphed head (.obj .ply .npz)")
     morph.set_defaults(command=_morph)
+
+
+def _add_points_arguments(points: argparse.ArgumentParser) -> None:
+    points.add_argument("--face", type=Path, required=True, help="the neutral face (.obj .ply .npz)")
+    points.add_argument("--points", type=Path, help="feature points that it has (.json); guessed without them")
+    points.add_argument("--set", choices=[name.lower() for name in POINT_SETS], default="dense", help="what is wanted")
+    points.add_argument("--out", type=Path, required=True, help="all points (.json)")
+    points.set_defaults(command=_points)
 
 
 def _add_face_arguments(command: argparse.ArgumentParser, required: bool) -> None:
@@ -287,6 +298,17 @@ def _morph(arguments: argparse.Namespace) -> int:
     head = FapFaceFiles(arguments.face, arguments.points)
     wanted = FapFaceFiles(arguments.to_face, arguments.to_points)
     _warn(run_morph_task(head, wanted, arguments.out).warnings)
+    return 0
+
+
+def _points(arguments: argparse.Namespace) -> int:
+    from .files.points_task import run_points_task
+
+    found = run_points_task(arguments.face, arguments.points, arguments.set.upper(), arguments.out)
+    if found.doubtful:
+        _warn([f"points {', '.join(found.doubtful)} lie where the others do not expect them"])
+    how = "" if found.confidence is None else f", guessed from the mesh alone: {found.confidence:.0%} sure"
+    print(f"{arguments.out}: {found.proposed} points proposed{how}")
     return 0
 
 
