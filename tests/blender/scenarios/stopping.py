@@ -60,8 +60,9 @@ def take_in(way: str) -> tuple[object, ...]:
     return context, "@target", options
 
 
+BAKES = ("frames", "compact", "rig", "pc2")
 WORKS = {
-    "retarget": ("retargeting", "retarget_steps", context),
+    **{f"bake {kind}": ("retargeting", "retarget_steps", context) for kind in BAKES},
     "show levels": ("retargeting", "level_steps", context),
     "clone": ("cloning", "clone_steps", context),
     "re-solve": ("resolving", "resolve_steps", context),
@@ -101,6 +102,9 @@ failed = []
 for name, work in WORKS.items():
     task = context.scene.facial_retarget
     task.method = "hierarchical" if name == "show levels" else "motion_cloning"
+    if name.startswith("bake "):
+        task.bake.how.kind, task.bake.cache = name.removeprefix("bake "), str(folder / "bake.pc2")
+        task.report, task.page = str(folder / "report.json"), str(folder / "page.html")
     context.view_layer.update()
     before, lying = everything(), files()
     bpy.ops.ed.undo_push(message="before")
