@@ -126,6 +126,13 @@ class PreviewTarget:
     def _check(self, things: Sequence[Object]) -> None:
         if [len(thing.data.vertices) for thing in things] != np.diff(self._starts).tolist():
             raise RetargetError("the target's vertices are not those that were fitted, expected a refresh")
+        for thing in things:
+            for modifier in thing.modifiers:
+                if modifier.type == "MESH_CACHE" and modifier.show_viewport:
+                    raise RetargetError(
+                        f"modifier {modifier.name!r} of object {thing.name!r} plays a cache over the preview, "
+                        "expected it off"
+                    )
 
 
 def _source_now(task: PropertyGroup, depsgraph: Depsgraph) -> FloatArray:

@@ -21,6 +21,7 @@ from .heads import head_parts, read_head
 from .key_sets import check_targets
 from .level_object import show_levels
 from .performance import read_frames
+from .preview import stop_preview
 from .settings import read_task_settings
 from .task import frame_times, read_problem
 
@@ -29,7 +30,7 @@ READING, COMPUTING, BAKING = 0.2, 0.7, 0.1
 
 
 def retarget_steps(context: Context) -> Steps[dict[str, Any]]:
-    """Retarget the scene's task and bake the result; returns the report.
+    """Retarget the scene's task and bake the result, which ends a live preview; returns the report.
 
     Closing the steps at any time leaves the scene as it was: everything is written at the very end.
 
@@ -64,6 +65,8 @@ def retarget_steps(context: Context) -> Steps[dict[str, Any]]:
     with written_whole() as aside:
         _add_report(aside, task, result, page)
         bake.add_files(aside)
+    # What was previewed is there to stay now, and some kinds of bake leave no place for the preview's key.
+    stop_preview()
     bake.write()
     write_frame_findings(task.target, task.source, result, frames)
     return result.report

@@ -1,4 +1,4 @@
-"""The live preview on heads of several objects, with bones, modifiers, Edit Mode, renders: it shows what a bake makes."""
+"""The live preview on heads of several objects, with bones, modifiers, Edit Mode, renders: it shows what is baked."""
 
 import sys
 from pathlib import Path
@@ -11,7 +11,8 @@ folder = Path(sys.argv[1])
 empty_scene()
 context = bpy.context
 scene, task = context.scene, context.scene.facial_retarget
-demo, heads, bake, state = part("demo"), part("bridge.heads"), part("bridge.bake"), part("preview_state").STATE
+demo, heads, bake = part("demo"), part("bridge.heads"), part("bridge.bakes.frames")
+state = part("preview_state").STATE
 actor, warped = demo.actor(4_500), demo.warped_actor(np.random.default_rng(1), 4_500)
 FIRST, COUNT = 5, 4
 performance = demo.performance(actor)[20 : 20 + 12 * COUNT : 12]
@@ -22,7 +23,7 @@ source, target = task.source, task.target
 target.location, target.rotation_euler, target.scale = (1, 2, 3), (0.3, 0.2, 0.1), (2, 2, 2)
 for entry in target.facial_retarget.parts:
     entry.thing.parent = target
-bake.write_head_frames(heads.read_head(source), performance, FIRST)
+bake.write_head_frames(heads.read_head(source), performance, range(FIRST, FIRST + COUNT))
 eye = next(entry.thing for entry in source.facial_retarget.parts if len(entry.thing.data.vertices) > 1_000)
 for i in range(COUNT):
     eye.rotation_euler.y = 0.02 * i
@@ -59,7 +60,11 @@ assert max(moves[1:]) > 0.005, moves
 assert bpy.ops.facial_retarget.stop_preview() == {"FINISHED"}
 assert all(thing.data.shape_keys is None for thing in things)
 same(seen(), rest)
+# A bake takes the preview's place.
+assert bpy.ops.facial_retarget.start_preview() == {"FINISHED"}
 assert bpy.ops.facial_retarget.retarget() == {"FINISHED"}
+assert not state.on
+assert "facial_retarget_preview" not in target.data.shape_keys.key_blocks
 same(seen(), live)
 assert len(live[0][0]) > len(target.data.vertices)
 
@@ -69,6 +74,12 @@ same(seen(), live)
 for thing in things:
     thing.modifiers.clear()
 plain = seen()
+
+# A cache that plays over it is named.
+cache = target.modifiers.new("cache", "MESH_CACHE")
+scene.frame_set(FIRST)
+assert "cache" in state.trouble
+target.modifiers.remove(cache)
 
 # Bones that pose the source.
 bones = bpy.data.armatures.new("bones")
