@@ -330,7 +330,7 @@ def test_a_disk_that_is_full_when_the_page_is_written_leaves_no_frames(job, list
     refused(job, listing, capsys, "the disk is full")
 
 
-@pytest.mark.parametrize("share", [0.0, 0.5, 0.9, 0.93])
+@pytest.mark.parametrize("share", [0.0, 0.5, 0.85, 0.87])
 def test_ctrl_c_leaves_everything_as_it_was(job, listing, capsys, monkeypatch, share):
     job.output.frames.write_bytes(b"earlier work")
     before = listing()
