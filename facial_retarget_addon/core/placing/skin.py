@@ -107,16 +107,20 @@ def closest_looking(finder: SurfaceFinder, places: FloatArray, normals: FloatArr
     """
     near = finder.closest(places)
     farthest = near.distance + SLIP * unit
-    for agreement in AGREEMENTS[::-1]:
-        better = finder.closest(places, normals, agreement, float(farthest.max(initial=0.0)))
-        good = better.distance <= farthest
-        near = _with(near, good, some_places(better, np.flatnonzero(good)))
+    left = np.arange(len(places))
+    for agreement in AGREEMENTS:
+        if not len(left):
+            break
+        better = finder.closest(places[left], normals[left], agreement, float(farthest[left].max(initial=0.0)))
+        good = better.distance <= farthest[left]
+        near = _with(near, left[good], some_places(better, np.flatnonzero(good)))
+        left = left[~good]
     return near
 
 
-def _with(places: Nearest, rows: BoolArray, better: Nearest) -> Nearest:
-    """The places with others in some rows (N,)."""
-    whole = some_places(places, np.arange(len(rows)))
+def _with(places: Nearest, rows: BoolArray | IntArray, better: Nearest) -> Nearest:
+    """The places with others in some rows."""
+    whole = some_places(places, np.arange(len(places.face)))
     for mine, other in zip(whole, better, strict=True):
         mine[rows] = other
     return whole
