@@ -221,7 +221,7 @@ def _after_save(*_: object) -> None:
     scene = _scene()
     if scene is not None and STATE.on and _preview is not None:
         add_preview_keys(whole_head(scene.facial_retarget.target))
-        _preview.update(scene, bpy.context.evaluated_depsgraph_get(), again=True)
+        _show_again(scene)
 
 
 def _after_undo(*_: object) -> None:
@@ -232,7 +232,7 @@ def _after_undo(*_: object) -> None:
         _halt()
     elif _preview is not None:
         _go_on()
-        _preview.update(scene, bpy.context.evaluated_depsgraph_get(), again=True)
+        _show_again(scene)
 
 
 def _before_load(*_: object) -> None:
@@ -297,8 +297,19 @@ def _halt() -> None:
 
 
 def _tick() -> float:
-    check_origin()
+    """Look at what the fits came from; nobody changes it while the animation plays."""
+    windows = [window for manager in bpy.data.window_managers for window in manager.windows]
+    if not any(window.screen.is_animation_playing for window in windows):
+        check_origin()
     return CHECK
+
+
+def _show_again(scene: Scene) -> None:
+    """Show the source's present shape whatever was shown; at the next change where another scene is at work."""
+    if _preview is not None:
+        _preview.forget_shown()
+        if bpy.context.scene == scene:
+            _preview.update(scene, bpy.context.evaluated_depsgraph_get())
 
 
 def _on_change(what: str) -> None:
@@ -307,7 +318,7 @@ def _on_change(what: str) -> None:
         stop_preview()
     elif what in ("gains", "masks"):
         scene = _scene()
-        if _preview is not None and scene is not None:
+        if _preview is not None and scene is not None and bpy.context.scene == scene:
             _preview.set_gains(scene, bpy.context.evaluated_depsgraph_get(), painted=what == "masks")
     elif bpy.app.background:
         _adjust()
@@ -320,5 +331,5 @@ def _adjust() -> None:
     scene = _scene()
     if _preview is not None and scene is not None and STATE.on:
         _preview.adjust(scene.facial_retarget)
-        _preview.update(scene, bpy.context.evaluated_depsgraph_get(), again=True)
+        _show_again(scene)
         check_origin()

@@ -58,13 +58,17 @@ class PreviewTarget:
         self._shown: FloatArray | None = None
         self._moved: FloatArray | None = None
 
-    def update(self, scene: Scene, depsgraph: Depsgraph, again: bool = False) -> None:
-        """Show what the source does now; `again` : although it does what it did."""
+    def forget_shown(self) -> None:
+        """Let the next update show the source although it does what it did."""
+        self._shown = None
+
+    def update(self, scene: Scene, depsgraph: Depsgraph) -> None:
+        """Show what the source does now."""
         start = perf_counter()
         STATE.trouble = ""
         try:
             frame = _source_now(scene.facial_retarget, depsgraph)
-            if not again and self._shown is not None and np.array_equal(frame, self._shown):
+            if self._shown is not None and np.array_equal(frame, self._shown):
                 return
             self._moved = self.fits[self.method].retargeter.frames(frame[None])
             self._write(scene, depsgraph)
