@@ -524,7 +524,7 @@ class FACIAL_RETARGET_PG_overlay(PropertyGroup):
     show_diagram: BoolProperty(
         name="Diagram",
         default=True,
-        description="Show where on a face the point lies whose turn it is, in a corner of the view",
+        description="While the feature-point tool is chosen, show in a corner of the view where the next point lies",
     )
 
 

@@ -102,6 +102,8 @@ def _stamp(thing: Object) -> tuple[int, int]:
     from ..bridge.base_lines import shape_stamp
 
     known = _base.stamps.get(thing.session_uid)
+    if thing.data.is_editmode:  # the mesh is what it was before; it is read when Edit Mode is left
+        return thing.session_uid, 0 if known is None else known[1]
     if known is None or known[0] != look(thing):
         known = _base.stamps[thing.session_uid] = (look(thing), shape_stamp(thing))
     return thing.session_uid, known[1]

@@ -5,18 +5,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import cache
 
+import bpy
 import gpu
 import numpy as np
-from bpy.types import Context, Object
+from bpy.types import Context
 from gpu.types import GPUBatch
 from gpu_extras.batch import batch_for_shader
 from mathutils import Matrix
 
-from ..core.point_sets import DIAGRAM_HIGH, DIAGRAM_LOW, POINT_INFOS, POINT_SETS
+from ..core.point_sets import DIAGRAM_HIGH, DIAGRAM_LOW, POINT_INFOS, POINT_SETS, PointInfo
 from .face_lines import face_lines
 from .labels import draw_boxes, draw_text, text_width
 from .marks import PLACED, SELECTED, draw_marks, mark_batch
-from .state import active_face
+from .state import active_face, tool_is_active
 
 WIDTH, MARGIN, INSET = 168.0, 12.0, 10.0
 """Of the panel; its distance from the region's edges; of its contents from its own edges. Pixels at a UI scale of 1."""
@@ -27,39 +28,39 @@ _LEFT, _RIGHT, _LOW, _HIGH = -1.55, 1.55, DIAGRAM_LOW[1] - 0.05, DIAGRAM_HIGH[1]
 
 
 def draw_diagram(context: Context) -> None:
-    """Draw it for the active face, unless all its points are placed or the region is too small."""
+    """Draw it while the tool is chosen, unless all points of the set are placed or the region is too small."""
     thing = active_face(context)
-    name = (
-        thing.facial_retarget.turn
-        if thing is not None and context.mode == "OBJECT" and _is_face(context, thing)
-        else ""
-    )
-    if not name or not _is_main(context):
+    if thing is None or not tool_is_active(context) or not thing.facial_retarget.turn or not _is_main(context):
         return
-    face = thing.facial_retarget
-    placed = tuple(face.points.keys())
     scale = context.preferences.system.ui_scale
-    info = POINT_INFOS[name]
-    text = wrapped(info.meaning, (WIDTH - 2 * INSET) * scale, scale)[:LINES]
-    drawing = (WIDTH - 2 * INSET) * (_HIGH - _LOW) / (_RIGHT - _LEFT)
-    tall = drawing + 2 * INSET + 34 + 13 * len(text)
+    info = POINT_INFOS[thing.facial_retarget.turn]
+    lines = wrapped(info.meaning, (WIDTH - 2 * INSET) * scale, scale)[:LINES]
+    unit = (WIDTH - 2 * INSET) * scale / (_RIGHT - _LEFT)
+    words = (INSET + 34 + 13 * len(lines)) * scale
+    top = MARGIN * scale + words + unit * (_HIGH - _LOW) + INSET * scale
     right = context.region.width - _covered(context) - MARGIN * scale
     left, bottom = right - WIDTH * scale, MARGIN * scale
-    if left < context.region.width / 2 or tall * scale > 0.6 * context.region.height:
+    if left < context.region.width / 2 or top > 0.6 * context.region.height:
         return
-    draw_boxes([(left, bottom, right, bottom + tall * scale)], PAPER)
-    unit = (WIDTH - 2 * INSET) * scale / (_RIGHT - _LEFT)
-    at = (left + INSET * scale - unit * _LEFT, bottom + (tall - INSET) * scale - unit * _HIGH)
-    wanted = [one.name for one in POINT_SETS[face.point_set]]
+    draw_boxes([(left, bottom, right, top)], PAPER)
+    at = (left + INSET * scale - unit * _LEFT, bottom + words - unit * _LOW)
+    wanted = [one.name for one in POINT_SETS[thing.facial_retarget.point_set]]
+    placed = [name for name in wanted if name in thing.facial_retarget.points]
     _draw_face(at, unit, scale)
-    _draw_points(at, unit, scale, name, tuple(one for one in wanted if one in placed))
-    x, y = left + INSET * scale, bottom + (INSET + 13 * len(text)) * scale
-    count = f"{len([one for one in wanted if one in placed]) + 1} of {len(wanted)}"
-    draw_text(info.label, x, y + 17 * scale, scale, 12)
-    draw_text(name if name[0].isdigit() else "", x, y + 3 * scale, scale, 10, FAINT)
-    draw_text(count, right - INSET * scale - text_width(count, scale, 10), y + 3 * scale, scale, 10, FAINT)
-    for i, line in enumerate(text):
-        draw_text(line, x, y - (10 + 13 * i) * scale, scale, 10, FAINT)
+    _draw_points(at, unit, scale, info.name, tuple(placed))
+    _draw_words(info, lines, f"{len(placed)} of {len(wanted)}", (left + INSET * scale, right - INSET * scale, bottom))
+
+
+def _draw_words(info: PointInfo, lines: Sequence[str], count: str, place: tuple[float, float, float]) -> None:
+    """Label, number, how many are placed, and meaning, between left and right of `place` and above its bottom."""
+    scale = bpy.context.preferences.system.ui_scale
+    left, right, bottom = place
+    y = bottom + (INSET + 13 * len(lines)) * scale
+    draw_text(info.label, left, y + 17 * scale, scale, 12)
+    draw_text(info.name if info.name[0].isdigit() else "", left, y + 3 * scale, scale, 10, FAINT)
+    draw_text(count, right - text_width(count, scale, 10), y + 3 * scale, scale, 10, FAINT)
+    for i, line in enumerate(lines):
+        draw_text(line, left, y - (10 + 13 * i) * scale, scale, 10, FAINT)
 
 
 def wrapped(text: str, width: float, scale: float) -> list[str]:
@@ -72,11 +73,6 @@ def wrapped(text: str, width: float, scale: float) -> list[str]:
         else:
             lines[-1] = longer
     return [line for line in lines if line]
-
-
-def _is_face(context: Context, thing: Object) -> bool:
-    task, face = context.scene.facial_retarget, thing.facial_retarget
-    return thing in (task.source, task.target) or len(face.points) > 0 or len(face.proposals) > 0
 
 
 def _is_main(context: Context) -> bool:

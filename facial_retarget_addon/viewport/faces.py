@@ -15,11 +15,12 @@ from ..core.doubts import doubts
 from ..core.errors import RetargetError
 from .base import folded_names
 from .changes import look, stored_points
-from .marks import DOUBTFUL, PLACED, PROPOSED, SELECTED, mark_batch
+from .marks import DOUBTFUL, NEXT, PLACED, PROPOSED, SELECTED, mark_batch
 from .projection import pixels_across, toward_viewer
+from .state import tool_is_active
 
 MODES = ("OBJECT", "EDIT_MESH", "POSE", "PAINT_WEIGHT")
-"""Where points are drawn: a sculptor sees the surface."""
+"""Where points are drawn: a sculptor sees the surface, and a mesh in Edit Mode has no evaluated one."""
 SHARE, SMALLEST, LARGEST = 0.014, 2.2, 4.5
 """Radius of a mark as a share of the face's height in pixels, and its limits in pixels at a UI scale of 1."""
 FOLDED = "a triangle of the base mesh folds over here"
@@ -58,7 +59,8 @@ class FaceMarks:
     def mark_size(self, context: Context, height: float) -> float:
         """Radius of the marks in pixels, on a face of this height in the world."""
         across = pixels_across(context, self.places.mean(axis=0), height)
-        return min(max(SHARE * across, SMALLEST), LARGEST) * context.preferences.system.ui_scale
+        scale = context.preferences.system.ui_scale
+        return min(max(SHARE * across, SMALLEST * scale), LARGEST * scale)
 
 
 _made: dict[int, FaceMarks] = {}
@@ -75,10 +77,11 @@ def shown_faces(context: Context) -> Iterator[Object]:
         return
     task = context.scene.facial_retarget
     for thing in dict.fromkeys((task.source, task.target, context.active_object)):
-        if thing is not None and thing.type == "MESH" and thing.visible_get(viewport=context.space_data):
-            face = thing.facial_retarget
-            if len(face.points) or len(face.proposals):
-                yield thing
+        if thing is None or thing.type != "MESH" or thing.data.is_editmode:
+            continue
+        face = thing.facial_retarget
+        if (len(face.points) or len(face.proposals)) and thing.visible_get(viewport=context.space_data):
+            yield thing
 
 
 def face_marks(context: Context, thing: Object) -> FaceMarks:
@@ -87,14 +90,15 @@ def face_marks(context: Context, thing: Object) -> FaceMarks:
     active = face.active_point if thing == context.active_object else -1
     noted = tuple(point.doubt for point in face.points)
     stored = stored_points(face.points), stored_points(face.proposals), noted
-    state = (look(thing), active, folded_names(thing), *stored)
+    turn = face.turn if thing == context.active_object and tool_is_active(context) else ""
+    state = (look(thing), active, turn, folded_names(thing), *stored)
     made = _made.get(thing.session_uid)
     if made is None or made.state != state:
-        made = _made[thing.session_uid] = _make(thing, context.view_layer.depsgraph, active, state)
+        made = _made[thing.session_uid] = _make(thing, context.view_layer.depsgraph, active, turn, state)
     return made
 
 
-def _make(thing: Object, depsgraph: Any, active: int, state: tuple[Any, ...]) -> FaceMarks:
+def _make(thing: Object, depsgraph: Any, active: int, turn: str, state: tuple[Any, ...]) -> FaceMarks:
     from ..bridge.point_places import world_normals, world_places  # loads SciPy, which enabling does not
 
     try:
@@ -105,7 +109,8 @@ def _make(thing: Object, depsgraph: Any, active: int, state: tuple[Any, ...]) ->
         return FaceMarks(state, (), 0, (), none, none, None, {}, str(error))
     noted = {point.name: point.doubt for point in thing.facial_retarget.points if point.doubt}
     doubtful = noted | dict.fromkeys(folded_names(thing), FOLDED) | doubts(placed, at)
-    shapes = [DOUBTFUL if name in doubtful else PLACED for name in placed] + [PROPOSED] * len(proposed)
+    shapes = [DOUBTFUL if name in doubtful else PLACED for name in placed]
+    shapes += [NEXT if name == turn else PROPOSED for name in proposed]
     if 0 <= active < len(placed):
         shapes[active] = SELECTED
     places = np.concatenate([at, there])

@@ -15,7 +15,7 @@ from mathutils import Matrix
 from ..core.errors import RetargetError
 from .changes import look
 from .labels import PAPER, draw_boxes, draw_text, text_width
-from .shaders import RAMP, heat_shader, lens
+from .shaders import RAMP, drawing, heat_shader, lens
 
 
 class Scale(NamedTuple):
@@ -87,13 +87,8 @@ def draw_heat(context: Context, thing: Object, view: Matrix, projection: Matrix)
     shader.uniform_float("viewport", gpu.state.viewport_get()[2:])
     shader.uniform_float("low", scale.low)
     shader.uniform_float("high", scale.high)
-    gpu.state.blend_set("ALPHA_PREMULT")
-    gpu.state.depth_test_set("LESS_EQUAL")
-    gpu.state.depth_mask_set(True)
-    heat.batch.draw(shader)
-    gpu.state.depth_mask_set(False)
-    gpu.state.depth_test_set("NONE")
-    gpu.state.blend_set("NONE")
+    with drawing("LESS_EQUAL", writes_depth=True):
+        heat.batch.draw(shader)
 
 
 def draw_legend(context: Context, thing: Object) -> str:

@@ -11,7 +11,7 @@ from gpu_extras.batch import batch_for_shader
 from mathutils import Matrix
 
 from ..core.arrays import FloatArray
-from .shaders import lens, line_shader
+from .shaders import drawing, lens, line_shader
 
 _SIDES = np.array([[0, -1], [0, 1], [1, 1], [1, -1]], np.float32)
 _TRIANGLES = np.array([[0, 1, 2], [0, 2, 3]], np.int32)
@@ -61,8 +61,5 @@ def draw_lines(
     shader.uniform_float("width", width)
     shader.uniform_float("strength", strength)
     shader.uniform_float("colour", colour)
-    gpu.state.blend_set("ALPHA_PREMULT")
-    gpu.state.depth_test_set("NONE" if through else "LESS_EQUAL")
-    batch.draw(shader)
-    gpu.state.depth_test_set("NONE")
-    gpu.state.blend_set("NONE")
+    with drawing("NONE" if through else "LESS_EQUAL"):
+        batch.draw(shader)

@@ -11,16 +11,17 @@ from gpu_extras.batch import batch_for_shader
 from mathutils import Matrix
 
 from ..core.arrays import FloatArray
-from .shaders import REACH, lens, linear, mark_shader
+from .shaders import REACH, drawing, lens, linear, mark_shader
 
-PLACED, PROPOSED, SELECTED, DOUBTFUL = range(4)
-"""Shapes of marks: a disc, a ring, a light disc in a ring, a warning triangle."""
+PLACED, PROPOSED, SELECTED, DOUBTFUL, NEXT = range(5)
+"""Shapes of marks: a disc, a ring, a light disc in a ring, a warning triangle, a ring with ticks."""
 
 COLOURS = (
     linear(0.25, 0.72, 1.0),
     linear(0.80, 0.93, 1.0),
     linear(1.0, 0.55, 0.10),
     linear(1.0, 0.84, 0.0),
+    linear(1.0, 0.55, 0.10),
 )
 """Of each shape. Skin is a shade of red and brown: blue and white stand out on light and dark skin alike."""
 
@@ -32,9 +33,9 @@ _TRIANGLES = np.array([[0, 1, 2], [0, 2, 3]], np.int32)
 
 
 def mark_batch(places: FloatArray, shapes: Sequence[int]) -> GPUBatch:
-    """Marks of the shapes (P,) at places (P, 3); the selected one lies over the others."""
+    """Marks of the shapes (P,) at places (P, 3); the selected and the next one lie over the others."""
     count = len(places)
-    order = np.argsort(np.asarray(shapes) == SELECTED, kind="stable")
+    order = np.argsort(np.isin(shapes, (SELECTED, NEXT)), kind="stable")
     looks = np.array([(*COLOURS[shape], shape) for shape in shapes], np.float32).reshape(-1, 4)
     corners = {
         "pos": np.repeat(np.asarray(places, np.float32), 4, axis=0),
@@ -62,11 +63,8 @@ def draw_marks(batch: GPUBatch, view: Matrix, projection: Matrix, size: float, h
     shader.uniform_float("viewport", gpu.state.viewport_get()[2:])
     shader.uniform_float("size", size)
     shader.uniform_float("hot", float(hot))
-    gpu.state.blend_set("ALPHA_PREMULT")
     passes = (("NONE", 1.0),) if flat else (("GREATER", HIDDEN_STRENGTH), ("LESS_EQUAL", 1.0))
     for depth_test, strength in passes:
-        gpu.state.depth_test_set(depth_test)
-        shader.uniform_float("strength", strength)
-        batch.draw(shader)
-    gpu.state.depth_test_set("NONE")
-    gpu.state.blend_set("NONE")
+        with drawing(depth_test):
+            shader.uniform_float("strength", strength)
+            batch.draw(shader)

@@ -79,7 +79,8 @@ def _draw_pixels() -> None:
         _draw_names(context, scale, wanted.show_names)
     if wanted.show_diagram:
         draw_diagram(context)
-    troubles = [base.trouble()] if wanted.show_base else []
+    troubles = [face_marks(context, thing).trouble for thing in shown_faces(context)] if wanted.show_points else []
+    troubles += [base.trouble()] if wanted.show_base else []
     if wanted.show_heat and (hot := heated(context)) is not None:
         troubles.append(draw_legend(context, hot))
     draw_trouble(context, next(filter(None, troubles), ""))

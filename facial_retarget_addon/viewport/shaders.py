@@ -5,6 +5,8 @@ Blender draws into sRGB framebuffers: colours go to the shaders linear, see `lin
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import cache
 
 import gpu
@@ -135,6 +137,13 @@ void main()
     layer(dark, cover(away - 1.2));
     layer(light, cover(away - 0.9));
   }
+  else if (shape == 4) {  /* proposed, and its turn: a ring with four ticks */
+    float band = abs(away - 0.95);
+    vec2 off = abs(uv);
+    float tick = max(min(off.x, off.y) - 0.16, abs(max(off.x, off.y) - 1.5) - 0.4);
+    layer(dark, 0.8 * cover(min(band - 0.5, tick - 0.25)));
+    layer(tint.rgb, cover(min(band - 0.25, tick)));
+  }
   else {  /* doubtful: a warning triangle with its exclamation mark */
     float edge = triangle(uv + vec2(0.0, 0.15), 1.15);
     layer(dark, 0.8 * cover(edge - 0.6));
@@ -220,6 +229,27 @@ def heat_shader() -> GPUShader:
     info.vertex_source(_HEAT_VERTEX)
     info.fragment_source(_HEAT_FRAGMENT)
     return gpu.shader.create_from_info(info)
+
+
+@contextmanager
+def drawing(depth_test: str, writes_depth: bool = False) -> Iterator[None]:
+    """Draw what is premultiplied by its alpha; then the state is as it was.
+
+    Parameters
+    ----------
+    depth_test : as `gpu.state.depth_test_set` has it.
+    writes_depth : whether it hides what is drawn later; what is clear in places must not.
+    """
+    test, writes = gpu.state.depth_test_get(), gpu.state.depth_mask_get()
+    gpu.state.blend_set("ALPHA_PREMULT")
+    gpu.state.depth_test_set(depth_test)
+    gpu.state.depth_mask_set(writes_depth)
+    try:
+        yield
+    finally:
+        gpu.state.depth_mask_set(writes)
+        gpu.state.depth_test_set(test)
+        gpu.state.blend_set("NONE")
 
 
 def lens(projection: FloatArray) -> tuple[float, float, float]:
