@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import bpy
 import numpy as np
-from drive import area, look, move, on_screen, override, region, screenshot, wait, wait_until
+from drive import area, look, move, on_screen, override, region, screenshot, wait, wait_until, window
 from stage import add_face, choose, clear, part, point_places
 
 BLUE, ORANGE, YELLOW = np.array([64, 184, 255]), np.array([255, 140, 26]), np.array([255, 214, 0])
@@ -176,6 +176,8 @@ def view_context() -> SimpleNamespace:
         view_layer=bpy.context.view_layer,
         scene=bpy.context.scene,
         space_data=editor.spaces.active,
+        workspace=window().workspace,
+        mode=bpy.context.mode,
     )
 
 

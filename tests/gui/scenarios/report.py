@@ -115,7 +115,7 @@ def scenario():
     # Select does.
     known.active_finding = 0
     yield from wait()
-    yield from press_button("facial_retarget.select_trouble(kind='TORN')")
+    yield from press_button('facial_retarget.select_trouble(kind="TORN")')
     assert bpy.context.mode == "EDIT_MESH"
     screenshot("selected")
     bpy.ops.object.mode_set(mode="OBJECT")
