@@ -18,6 +18,7 @@ export OMP_NUM_THREADS ?= 2
 demo: .venv/ready
 	$(BIN)/facial-retarget demo $(DEMO)
 	$(BIN)/python docs/samples/05_demo_scene.py $(DEMO)
+	$(BIN)/python docs/samples/10_figure_11.py $(DEMO)
 
 test: .venv/ready
 	$(BIN)/python -m pytest --ignore=tests/gui

@@ -35,6 +35,7 @@ __all__ = [
     "POINTS",
     "DemoFace",
     "actor",
+    "ape",
     "child",
     "contractions",
     "donor",
@@ -81,11 +82,20 @@ def performance(face: DemoFace) -> FloatArray:
 
 def targets() -> list[DemoFace]:
     """Two faces of other topology, density, size and proportions, with examples in an artist's own manner."""
-    scatter = scattered_layout(0.028, np.random.default_rng(7))
     return [
-        build_face("ape", APE, scatter, FUR, APE_MANNER),
+        ape(),
         build_face("skull", SKULL, ringed_layout(118, 132, 9), BONE, SKULL_MANNER),
     ]
+
+
+def ape(spacing: float = 0.028) -> DemoFace:
+    """The ape, on scattered triangles.
+
+    Parameters
+    ----------
+    spacing : distance between neighbours in chart units; the actor's eyes are 1 apart.
+    """
+    return build_face("ape", APE, scattered_layout(spacing, np.random.default_rng(7)), FUR, APE_MANNER)
 
 
 def child() -> DemoFace:
