@@ -43,12 +43,10 @@ class FACIAL_RETARGET_OT_place_point(WithTool, Operator):
         except RetargetError as error:
             return self.answer(error)
         context.window_manager.modal_handler_add(self)
-        context.area.tag_redraw()
         return {"RUNNING_MODAL"}
 
     def modal(self, context: Context, event: Event) -> set[str]:
         """Slide, put down, or put back."""
-        context.area.tag_redraw()
         if event.type in {"ESC", "RIGHTMOUSE"}:
             self._drag.put_back()
             return {"CANCELLED"}

@@ -11,6 +11,7 @@ from bpy.types import Context, Event
 from ..bridge.point_memory import put_back_points, remember_points
 from ..bridge.point_moves import put_point
 from ..bridge.point_preparation import prepare_predictions, update_when_prepared
+from ..bridge.redraw import redraw_views
 from ..bridge.shown_surface import ShownSurface, view_of
 from ..core.arrays import FloatArray
 from ..core.errors import RetargetError
@@ -118,8 +119,10 @@ class PointDrag:
     def put_back(self) -> None:
         """Everything is as before the press."""
         put_back_points(self._thing, self._memory)
+        redraw_views()
 
     def _put(self, mirrored: bool) -> None:
+        redraw_views()
         if self.changed:
             before = perf_counter()
             put_point(self._thing, self._name, self._place, mirrored)

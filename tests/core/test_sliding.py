@@ -1,14 +1,17 @@
 """A place slides along the surface that it lies on: not through it, not onto another sheet."""
 
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
+import pytest
 
 from facial_retarget_addon.core.arrays import FloatArray
 from facial_retarget_addon.core.mesh import TriMesh
 from facial_retarget_addon.core.raycast import EmbreeCaster
 from facial_retarget_addon.core.sliding import Place, Slide
 from facial_retarget_addon.core.view_rays import View
+from facial_retarget_addon.files.points import read_points
 
 SIZE = np.array([400.0, 400.0])
 VIEW = np.eye(4)
@@ -20,8 +23,8 @@ WINDOW = np.diag([0.5, 0.5, -0.02, 1.0])
 class Scene:
     """A mesh in the view."""
 
-    def __init__(self, mesh: TriMesh) -> None:
-        self.mesh, self.view, self._caster = mesh, View(SIZE, VIEW, WINDOW), EmbreeCaster(mesh)
+    def __init__(self, mesh: TriMesh, view: View | None = None) -> None:
+        self.mesh, self.view, self._caster = mesh, view or View(SIZE, VIEW, WINDOW), EmbreeCaster(mesh)
 
     def hit(self, pixel: FloatArray) -> Place | None:
         origin, direction = self.view.ray(pixel)
@@ -140,3 +143,29 @@ def test_a_place_does_not_jump_through_an_opening_onto_what_lies_behind() -> Non
         assert place.position[2] > -1e-6, x
         np.testing.assert_allclose(scene.seen(place), [max(x, 230), 200], atol=1)
     np.testing.assert_allclose(scene.seen(slide.to(np.array([260.0, 240.0]))), [260, 240], atol=1e-3)
+
+
+@pytest.mark.parametrize("opened", [False, True])
+def test_on_a_real_head_a_place_stays_on_its_lip(shared_data: Path, opened: bool) -> None:
+    archive = np.load(shared_data / "ict_dev.npz")
+    vertices = archive["vertices"].astype(float)
+    if opened:
+        vertices += archive["expr_delta"][list(archive["expr_names"]).index("jawOpen")]
+    mesh = TriMesh(vertices, archive["tris"])
+    points = read_points(shared_data / "ict_points.json", mesh)
+    place = dict(zip(points.names, points.positions(vertices), strict=True))
+    view = np.eye(4)
+    view[:3, 3] = -0.5 * (place["8.3"] + place["8.4"]) - [0, 0, 2 * mesh.size]
+    across = 1 / (3 * np.linalg.norm(place["8.3"] - place["8.4"]))
+    scene = Scene(mesh, View(SIZE, view, np.diag([across, across, -0.25 / mesh.size, 1.0])))
+    upper, below, lower, inside = (scene.view.pixels(place[name][None])[0] for name in ("8.1", "2.2", "8.2", "2.3"))
+    slide = scene.slide(*(upper + [0, 6]))
+    for share in np.linspace(0, 1, 8):
+        # Down over the lip's edge, into the open mouth or onto the other lip: it stays at the edge.
+        goal = (1 - share) * below + share * (0.7 * below + 0.3 * inside if opened else lower)
+        reached = slide.to(goal)
+        assert scene.seen(reached)[1] > below[1] - 2, share
+        assert abs(reached.position[2] - place["2.2"][2]) < 0.2 * np.linalg.norm(place["8.3"] - place["8.4"])
+    # The artist who goes on to the chin means the chin.
+    chin = lower - [0, 40]
+    np.testing.assert_allclose(scene.seen(slide.to(chin)), chin, atol=1e-3)
