@@ -122,6 +122,12 @@ class TestGuess:
         found = guess_points(turned(face.mesh, 3), face.points.names)
         assert np.median(errors(face, found.points)) < 0.10
 
+    def test_it_is_looked_for_once(self) -> None:
+        predictor = Predictor(built_in("child").mesh)
+        assert not predictor.has_looked
+        predictor.prepare()
+        assert predictor.has_looked
+
     def test_one_or_two_points_stand_on_the_guess(self) -> None:
         face = built_in("actor")
         found = predictor("actor").predict(face.points.subset(["9.3"]), face.points.names)
@@ -138,6 +144,26 @@ class TestGuess:
                 predictor.predict(known, ["8.3"])
         with pytest.raises(RetargetError, match="place at least 3 points by hand"):
             predictor.guess(["9.3"])
+
+
+class TestBadInput:
+    """One sentence says what arrived and what was wanted."""
+
+    def test_points_on_one_line(self) -> None:
+        face = built_in("child")
+        place = face.points.subset(["9.3"])
+        known = FeaturePoints(FIVE[:3], place.vertices[[0, 0, 0]], place.weights[[0, 0, 0]])
+        with pytest.raises(RetargetError, match="on one line or in one place"):
+            predictor("child").predict(known, ["8.4"])
+
+    def test_a_surface_without_area(self) -> None:
+        with pytest.raises(RetargetError, match="all 1 faces of the face are without area"):
+            Predictor(TriMesh(np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0]]), np.array([[0, 1, 2]])))
+
+    def test_a_plane_is_no_face(self) -> None:
+        corners = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
+        with pytest.raises(RetargetError, match="no face was found"):
+            guess_points(TriMesh(corners, np.array([[0, 1, 2], [0, 2, 3]])), ["9.3"])
 
 
 def outwards(around: np.ndarray) -> np.ndarray:

@@ -29,7 +29,7 @@ def pieces_of(mesh: TriMesh) -> IntArray:
 
 def _welded(mesh: TriMesh) -> IntArray:
     """(V,) label of the component of each vertex once vertices in one place are one."""
-    grid = np.round((mesh.vertices - mesh.vertices.min(axis=0)) / (SAME * mesh.size)).astype(np.int64)
+    grid = np.round((mesh.vertices - mesh.vertices.min(axis=0)) / max(SAME * mesh.size, 1e-300)).astype(np.int64)
     place = np.unique(grid, axis=0, return_inverse=True)[1].ravel()
     edges = place[mesh.edges]
     count = int(place.max()) + 1

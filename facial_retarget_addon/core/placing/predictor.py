@@ -68,9 +68,11 @@ class Predictor:
 
         Raises
         ------
-        RetargetError : if the mesh has no faces, or vertices that are not finite.
+        RetargetError : if the mesh has no faces, no area, or vertices that are not finite.
         """
         self._mesh = mesh.checked("the face")
+        if not mesh.area > 0:
+            raise RetargetError(f"all {len(mesh.faces)} faces of the face are without area, expected a surface")
         self._template = template or face_template()
         self._make_caster = make_caster
         self._pieces = pieces_of(mesh)
@@ -87,7 +89,7 @@ class Predictor:
     @property
     def has_looked(self) -> bool:
         """Whether the face was looked for from nothing, which takes a second or more."""
-        return "_face" in self.__dict__
+        return "_best_face" in self.__dict__
 
     def predict(self, known: FeaturePoints, wanted: Sequence[str]) -> FeaturePoints:
         """Places of the wanted points.
@@ -142,10 +144,10 @@ class Predictor:
         RetargetError : if a name is not among the known points.
         """
         names = [name for name in names if partner(name) != name]
+        if not names:
+            return FeaturePoints.none()
         sources = known.subset(names)
-        on_skin = known.subset([name for name in known.names if name not in PUPILS]) if names else known
-        if not len(on_skin):
-            on_skin = known
+        on_skin = known.subset([name for name in known.names if name not in PUPILS] or known.names)
         skin = self._skin(np.unique(self._pieces[on_skin.holders]))
         where = dict(zip(known.names, known.positions(self._mesh.vertices), strict=True))
         unit = self._unit(on_skin)
@@ -164,7 +166,12 @@ class Predictor:
         return FeaturePoints(tuple(map(partner, names)), self._mesh.faces[faces], weights)
 
     def doubtful(self, known: FeaturePoints) -> tuple[str, ...]:
-        """Names of the placed points that the others contradict, worst first; none among fewer than 6."""
+        """Names of the placed points that the others contradict, worst first; none among fewer than 6.
+
+        Raises
+        ------
+        RetargetError : if all points lie on one line.
+        """
         told = self._told(known)
         rows = self._template.rows(told.names)
         worst = doubtful_rows(self._template, rows, told.positions(self._mesh.vertices))

@@ -89,12 +89,11 @@ class Skin:
         places, normals : (N, 3).
         unit : one eye separation.
         """
-        near = self.finder.closest(places)
+        near = closest_looking(self.finder, places, normals, unit)
         covered = near.distance > COVERED * unit
         if covered.any():
-            near = _with(near, covered, self.whole.closest(places[covered]))
-        seen = np.flatnonzero(~covered)
-        return _with(near, ~covered, closest_looking(self.finder, places[seen], normals[seen], unit))
+            near = _with(near, covered, closest_looking(self.whole, places[covered], normals[covered], unit))
+        return near
 
 
 def closest_looking(finder: SurfaceFinder, places: FloatArray, normals: FloatArray, unit: float) -> Nearest:
