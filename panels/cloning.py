@@ -66,7 +66,7 @@ class FACIAL_RETARGET_PT_clone_settings(RetargetTab, Panel):
         layout.use_property_split, layout.use_property_decorate = True, False
         task = context.scene.facial_retarget
         settings = getattr(task, task.cloning.method)
-        for name in settings.__annotations__:
+        for name in type(settings).__annotations__:
             layout.prop(settings, name)
 
 

@@ -85,6 +85,6 @@ class FACIAL_RETARGET_PT_settings(RetargetTab, Panel):
         layout.use_property_split, layout.use_property_decorate = True, False
         task = context.scene.facial_retarget
         settings = getattr(task, task.method)
-        for name in settings.__annotations__:
+        for name in type(settings).__annotations__:
             layout.prop(settings, name)
         layout.operator("facial_retarget.show_levels")

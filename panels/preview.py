@@ -91,7 +91,7 @@ class FACIAL_RETARGET_PT_gains(RetargetTab, Panel):
         for name in strengths(task.method):
             column.prop(getattr(task, task.method), name)
         column = layout.column(align=True, heading="Regions")
-        for name in task.regions.__annotations__:
+        for name in type(task.regions).__annotations__:
             column.prop(task.regions, name, slider=True)
         layout.label(text="Painted Masks")
         row = layout.row()

@@ -43,7 +43,8 @@ def write_task_settings(task: PropertyGroup, method: str, settings: Settings) ->
 
 
 def _plain_values(group: PropertyGroup) -> dict[str, Any]:
-    return {name: _plain(getattr(group, name)) for name in group.__annotations__}
+    # Of the class: in Python 3.14 an instance has no annotations.
+    return {name: _plain(getattr(group, name)) for name in type(group).__annotations__}
 
 
 def _plain(value: Any) -> Any:
