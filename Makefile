@@ -6,7 +6,7 @@ BIN := .venv/bin
 DEMO ?= build/demo
 export OMP_NUM_THREADS ?= 2
 
-.PHONY: demo test test-blenders gui-test lint zip bench pins clean
+.PHONY: demo test test-blenders gui-test pictures lint zip bench pins clean
 .DELETE_ON_ERROR:
 
 .venv/ready: requirements/develop.txt pyproject.toml
@@ -37,7 +37,12 @@ test-blenders: .venv/ready $(BLENDERS:%=.venv-%/ready)
 export FACIAL_RETARGET_BLENDER_ROOT ?= $(CURDIR)/build/blender-root
 gui-test: .venv/ready
 	tests/gui/make_blender_root.sh "$(FACIAL_RETARGET_BLENDER_ROOT)"
-	$(BIN)/python -m pytest tests/gui
+	$(BIN)/python -m pytest tests/gui $(GUI_TESTS)
+
+# The pictures of the pages in docs, taken by the scenarios that play what the pages say.
+pictures:
+	FACIAL_RETARGET_PICTURES=build/pictures $(MAKE) gui-test GUI_TESTS="-k 'tutorial or panels'"
+	cp build/pictures/*/docs/*.png docs/pictures/
 
 lint: .venv/ready
 	$(BIN)/ruff check .

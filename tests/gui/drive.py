@@ -208,17 +208,18 @@ def write(text: str) -> Turns:
 
 def undo() -> Turns:
     """Ctrl Z over the 3D view."""
-    yield from _over_view()
+    yield from over_view()
     yield from key("Z", ctrl=True)
 
 
 def redo() -> Turns:
     """Shift Ctrl Z over the 3D view."""
-    yield from _over_view()
+    yield from over_view()
     yield from key("Z", ctrl=True, shift=True)
 
 
-def _over_view() -> Turns:
+def over_view() -> Turns:
+    """Move the mouse over the 3D view."""
     shown = region()
     yield from move(shown.x + 0.5 * shown.width, shown.y + 20)
 
@@ -305,24 +306,24 @@ def press_button(what: str, kind: str = "UI", editor: bpy.types.Area | None = No
 def open_section(title: str, tab: str = "Retarget", editor: bpy.types.Area | None = None) -> Turns:
     """Open one panel of the sidebar and close the others."""
     editor = editor or area()
-    panels = _panels(tab, editor)
-    place = [panel.bl_label for panel in panels].index(title)
+    shown = panels(tab, editor)
+    place = [panel.bl_label for panel in shown].index(title)
     parents = {getattr(panel, "bl_parent_id", "") for panel in bpy.types.Panel.__subclasses__()}
     # Ctrl and a click on a header close all other panels; on that of a panel with children they open and close those.
-    childless = next(i for i, panel in enumerate(panels) if panel.__name__ not in parents)
+    childless = next(i for i, panel in enumerate(shown) if panel.__name__ not in parents)
     with override(editor, "UI"):
         bpy.ops.view2d.reset()
     yield from wait()
-    yield from click(*_headers(editor)[childless], ctrl=True)
+    yield from click(*headers(editor)[childless], ctrl=True)
     yield from still()
     for other in (childless, place):
         if _is_open(other, editor) != (other == place):
-            yield from click(*_headers(editor)[other])
+            yield from click(*headers(editor)[other])
             yield from still()
     assert _is_open(place, editor), f"{title} does not open"
 
 
-def _panels(tab: str, editor: bpy.types.Area) -> list[type[bpy.types.Panel]]:
+def panels(tab: str, editor: bpy.types.Area) -> list[type[bpy.types.Panel]]:
     """The panels with headers that a tab shows, from top to bottom."""
     with override(editor, "UI"):
         found = [
@@ -340,14 +341,14 @@ def _is_open(place: int, editor: bpy.types.Area) -> bool:
     """Whether the panel there is open: then the arrow at the left of its header points down, and is wider than high."""
     shown, scale = region("UI", editor), bpy.context.preferences.system.ui_scale
     pixels = picture()
-    row, reach = len(pixels) - int(_headers(editor)[place][1]), int(9 * scale)
+    row, reach = len(pixels) - int(headers(editor)[place][1]), int(9 * scale)
     left = int(shown.x + 6 * scale)
     arrow = pixels[row - reach : row + reach, left : left + int(16 * scale)].astype(int)
     down, across = np.nonzero(arrow - np.median(arrow) > 80)  # a line of the scene shines through at less
     return np.ptp(across) > np.ptp(down)
 
 
-def _headers(editor: bpy.types.Area) -> list[tuple[float, float]]:
+def headers(editor: bpy.types.Area) -> list[tuple[float, float]]:
     """Places of the headers of the sidebar's panels from top to bottom, seen by the dots at their right ends."""
     shown = region("UI", editor)
     pixels = picture()[:, shown.x : shown.x + shown.width]
@@ -376,7 +377,7 @@ def scroll(shown: bpy.types.Region, turns: int = 10) -> Turns:
 
 def search(label: str) -> Turns:
     """Call an operator as an artist does who does not know where its button is: F3, its name, Return."""
-    yield from _over_view()
+    yield from over_view()
     yield from key("F3")
     yield from write(label)
     yield from wait()
@@ -393,6 +394,20 @@ def screenshot(name: str) -> Path:
     subprocess.run(["import", "-window", "root", path], check=True)
     log("screenshot", path)
     return path
+
+
+def illustrate(name: str, width: int = 0, height: int = 0, right: int = 0, top: int = 0) -> None:
+    """A picture for the pages in docs, of few colours: the whole window, or a part of it.
+
+    Parameters
+    ----------
+    width, height : of the part, in pixels; 0 for the whole window.
+    right, top : how far it is from the window's edges there.
+    """
+    (OUT / "docs").mkdir(exist_ok=True)
+    part = ["-gravity", "NorthEast", "-crop", f"{width}x{height}+{right}+{top}", "+repage"] if width else []
+    few = ["-dither", "None", "-colors", "128", "-define", "png:compression-level=9"]
+    subprocess.run(["magick", screenshot(name), *part, *few, f"PNG8:{OUT / 'docs' / name}.png"], check=True)
 
 
 def picture() -> np.ndarray:
