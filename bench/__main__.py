@@ -17,6 +17,7 @@ SECTIONS = (
     "parts",
     "placing",
     "normal_maps",
+    "bakes",
     "blender_write",
     "preview",
     "points",
