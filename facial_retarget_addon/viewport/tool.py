@@ -57,7 +57,10 @@ class FACIAL_RETARGET_TOOL_points(WorkSpaceTool):
         row = layout.row(align=True)
         row.prop(task, "mirror_points", text="X", icon="MOD_MIRROR", toggle=True)
         row.prop(task.overlay, "show_names", text="", icon="FONT_DATA", toggle=True)
-        layout.operator("facial_retarget.accept_points" if len(face.proposals) else "facial_retarget.guess_points")
+        if len(face.proposals):
+            layout.operator("facial_retarget.accept_points")
+        elif face.turn:
+            layout.operator("facial_retarget.guess_points")
         layout.label(text=_whose_turn(face.turn), icon="DECORATE_KEYFRAME", translate=False)
 
 
