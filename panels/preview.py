@@ -87,9 +87,6 @@ class FACIAL_RETARGET_PT_gains(RetargetTab, Panel):
         layout = self.layout
         layout.use_property_split, layout.use_property_decorate = True, False
         task = context.scene.facial_retarget
-        column = layout.column(align=True)
-        for name in strengths(task.method):
-            column.prop(getattr(task, task.method), name)
         column = layout.column(align=True, heading="Regions")
         for name in type(task.regions).__annotations__:
             column.prop(task.regions, name, slider=True)
@@ -101,3 +98,6 @@ class FACIAL_RETARGET_PT_gains(RetargetTab, Panel):
         column.operator("facial_retarget.remove_mask", text="", icon="REMOVE")
         if task.target is not None and len(task.masks):
             layout.prop_search(task.masks[task.active_mask], "name", task.target, "vertex_groups")
+        column = layout.column(align=True)
+        for name in strengths(task.method):
+            column.prop(getattr(task, task.method), name)
