@@ -7,7 +7,7 @@ from typing import Any
 
 import bpy
 import numpy as np
-from bpy.types import Context, Object
+from bpy.types import Context, Object, Scene
 from gpu.types import GPUBatch
 
 from ..bridge.redraw import redraw_views
@@ -76,8 +76,7 @@ def base_batches(context: Context, thing: Object) -> tuple[GPUBatch, GPUBatch | 
 
     Where the points have changed since, new lines are begun to be worked out.
     """
-    task = context.scene.facial_retarget
-    state = _state(task)
+    state = _state(context.scene)
     if state != _base.wanted:
         _begin(state)
     lines = lines_of(thing)
@@ -89,12 +88,13 @@ def base_batches(context: Context, thing: Object) -> tuple[GPUBatch, GPUBatch | 
     return None if made[1] is None else made[1:]
 
 
-def _state(task: Any) -> Any:
-    """What the base mesh depends on; None without two faces."""
+def _state(scene: Scene) -> Any:
+    """What the base mesh depends on, the scene's name first; None without two faces."""
+    task = scene.facial_retarget
     if task.source is None or task.target is None or task.source == task.target:
         return None
     faces = [(_stamp(thing), *stored_points(thing.facial_retarget.points)) for thing in (task.source, task.target)]
-    return (*faces, None if task.base is None else _stamp(task.base))
+    return (scene.name, *faces, None if task.base is None else _stamp(task.base))
 
 
 def _stamp(thing: Object) -> tuple[int, int]:
@@ -127,8 +127,12 @@ def _go_on() -> float | None:
     try:
         if _base.steps is None:
             _base.working = _base.wanted
-            if _base.working is not None:
-                _base.steps = in_thread(base_lines_work(bpy.context.scene.facial_retarget))
+            scene = None if _base.working is None else bpy.data.scenes.get(_base.working[0])
+            if scene is not None:
+                task = scene.facial_retarget
+                if any(thing is not None and thing.data.is_editmode for thing in (task.source, task.target, task.base)):
+                    return REST
+                _base.steps = in_thread(base_lines_work(task))
         if _base.steps is not None:
             next(_base.steps)
             return TURN
@@ -136,6 +140,9 @@ def _go_on() -> float | None:
         made = (done.value, "")
     except RetargetError as error:
         made = ({}, str(error))
+    except BaseException:
+        _base.steps = None
+        raise
     _base.steps, (_base.lines, _base.trouble) = None, made
     _base.batches.clear()
     redraw_views()

@@ -2,10 +2,11 @@
 
 from types import SimpleNamespace
 
+import addon_utils
 import bpy
 import numpy as np
 from drive import area, look, move, on_screen, override, region, screenshot, wait, wait_until, window
-from stage import add_face, choose, clear, part, point_places
+from stage import NAME, add_face, choose, clear, part, point_places
 
 BLUE, ORANGE, YELLOW = np.array([64, 184, 255]), np.array([255, 140, 26]), np.array([255, 214, 0])
 """Of placed points, of the selected one's ring, of what is doubtful."""
@@ -165,7 +166,22 @@ def scenario():
     assert "9 feature points in common" in base.trouble()
     yield from wait()
     screenshot("too_few_points")
+
+    # In Edit Mode the face's mesh is left alone; disabling takes all drawing away, and enabling brings it back.
+    choose(actor)
+    with override():
+        bpy.ops.object.mode_set(mode="EDIT")
+    yield from wait()
+    with override():
+        bpy.ops.object.mode_set(mode="OBJECT")
     task.overlay.show_base = False
+    points.write_points(actor, every)
+    for enabled in (False, True):
+        (addon_utils.enable if enabled else addon_utils.disable)(NAME)
+        area().tag_redraw()
+        yield from wait()
+        found = len(spots(picture(f"enabled_{enabled}"), BLUE))
+        assert (found > 100) if enabled else found == 0, (enabled, found)
 
 
 def view_context() -> SimpleNamespace:
