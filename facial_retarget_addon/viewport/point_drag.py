@@ -6,7 +6,7 @@ from time import perf_counter
 from typing import Any
 
 import numpy as np
-from bpy.types import Context, Event
+from bpy.types import Context, Event, Object
 
 from ..bridge.point_memory import put_back_points, remember_points
 from ..bridge.point_moves import put_point
@@ -24,6 +24,10 @@ TREMBLE = 3.0
 
 QUICK = 0.03
 """Seconds within which the partner is found if it follows on the way; a slower one comes when the mouse lets go."""
+
+
+NOW_ACTIVE = "{} is the active face now: the next click places a point on it"
+"""What a click says that only chooses a face, so that none places a point by mistake."""
 
 
 class Pointed:
@@ -50,7 +54,7 @@ class Pointed:
         self.thing = thing or needed_face(context)
         context.view_layer.objects.active = self.thing
         if not self.thing.visible_get(viewport=context.space_data):
-            raise RetargetError(f"{self.thing.name} is not shown in this view: unhide it, or leave local view")
+            raise RetargetError(_shown_instead(context, self.thing))
         self.view = view_of(context.region, context.region_data)
         self._surface = ShownSurface(self.thing, context.evaluated_depsgraph_get())
 
@@ -133,6 +137,16 @@ class PointDrag:
             face.active_point = face.points.find(self._name)
 
 
+def _shown_instead(context: Context, thing: Object) -> str:
+    """What a click means in a view without the active face: the other one of source and target, if that is there."""
+    task = context.scene.facial_retarget
+    for other in (task.source, task.target):
+        if other not in (None, thing) and other.visible_get(viewport=context.space_data):
+            context.view_layer.objects.active = other
+            return NOW_ACTIVE.format(other.name)
+    return f"{thing.name} is not shown in this view: unhide it, or leave local view"
+
+
 def _beside(context: Context, at: Pointed) -> str:
     """What a click beside the active face means: the other one of source and target, which becomes the active one."""
     task = context.scene.facial_retarget
@@ -141,7 +155,7 @@ def _beside(context: Context, at: Pointed) -> str:
             surface = ShownSurface(other, context.evaluated_depsgraph_get())
             if surface.under(at.view, at.mouse) is not None:
                 context.view_layer.objects.active = other
-                return f"{other.name} is the active face now: the next click places a point on it"
+                return NOW_ACTIVE.format(other.name)
     return f"{at.thing.name} is not under the mouse"
 
 

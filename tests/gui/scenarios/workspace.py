@@ -4,6 +4,7 @@ import bpy
 import numpy as np
 from drive import (
     area,
+    click,
     look,
     on_screen,
     open_section,
@@ -12,11 +13,12 @@ from drive import (
     press_button,
     region,
     screenshot,
+    still,
     wait,
     wait_until,
     window,
 )
-from stage import clear, part, point_places
+from stage import choose, clear, part, point_places, remember
 
 
 def scenario():
@@ -63,6 +65,19 @@ def scenario():
     yield from open_section("4. Retarget", editor=area(place=1))
     yield from press_button("facial_retarget.retarget", editor=area(place=1))
     yield from wait_until(lambda: part("guide").is_baked(task.target, 30), "the bake", 60)
+
+    # A click in the view of the other face goes on with that one.
+    place = on_screen(point_places(task.target)["9.3"], area(place=1))
+    task.target.facial_retarget.points.clear()
+    choose(task.source)
+    remember()
+    yield from press_button("facial_retarget.feature_points", kind="TOOLS")
+    yield from click(*place)
+    assert bpy.context.view_layer.objects.active == task.target
+    assert not len(task.target.facial_retarget.points)
+    yield from still(0.5)  # else it is a double click
+    yield from click(*place)
+    assert len(task.target.facial_retarget.points) == 1
 
     with bpy.context.temp_override(workspace=made):
         bpy.ops.workspace.delete()
