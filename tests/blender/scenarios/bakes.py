@@ -117,7 +117,7 @@ def a_rig_plays_it_with_its_own_keys() -> None:
     assert abs(task.target.data.shape_keys.key_blocks["joy"].value - 1) < 0.02
     task.bake.how.residual = 3
     bake(task, "rig")
-    added = [name for name in task.target.data.shape_keys.key_blocks.keys() if name not in names]
+    added = [block.name for block in task.target.data.shape_keys.key_blocks if block.name not in names]
     assert added == ["retargeted_residual_1", "retargeted_residual_2"], added
     closer = np.linalg.norm(played(task.target, times) - frames, axis=2)
     assert (closer**2).mean() <= (off**2).mean() * (1 + 1e-6)
