@@ -11,6 +11,7 @@ from ..core.errors import RetargetError
 from ..core.point_sets import POINT_INFOS
 from ..core.sliding import Place
 from .point_prediction import accept_proposals, predictor_of, update_predictions
+from .point_preparation import wait_until_prepared
 from .points import place_point, place_points, read_points, remove_point, skip_point, want_point
 from .shown_surface import ShownSurface
 
@@ -29,6 +30,7 @@ def put_point(thing: Object, name: str, place: Place, mirrored: bool) -> None:
     """
     place_point(thing, name, place.vertices.tolist(), place.weights.tolist())
     if mirrored and partner(name):
+        wait_until_prepared(thing)
         place_points(thing, predictor_of(thing).mirrored(read_points(thing), [name]))
 
 

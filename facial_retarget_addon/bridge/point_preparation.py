@@ -33,6 +33,12 @@ def is_preparing(thing: Object) -> bool:
     return thread is not None and thread.is_alive()
 
 
+def wait_until_prepared(thing: Object) -> None:
+    """Wait for the predictor of an object that is on its way: sooner there than a second one would be."""
+    if is_preparing(thing):
+        _threads[thing.session_uid].join()
+
+
 def update_when_prepared(thing: Object) -> None:
     """Update the proposals of an object at once, or as soon as its predictor is made."""
     if not is_preparing(thing):

@@ -128,3 +128,22 @@ operators.drop_point(name="2.1")
 assert memory.remember_points(actor) != kept
 memory.put_back_points(actor, kept)
 assert memory.remember_points(actor) == kept
+
+# A predictor that is made beside is the one that is asked then; who mirrors before it is there waits for it.
+preparation, prediction = part("bridge.point_preparation"), part("bridge.point_prediction")
+fresh = demo_object(part("demo").actor(3_000), "fresh")
+bpy.context.view_layer.objects.active = fresh
+bpy.context.view_layer.update()
+truth = world(fresh)
+fresh.facial_retarget.points.clear()
+preparation.prepare_predictions(fresh)
+assert preparation.is_preparing(fresh)
+task.mirror_points = True
+operators.place_point(name="8.3", location=truth["8.3"])
+assert not preparation.is_preparing(fresh)
+np.testing.assert_allclose(world(fresh)["8.4"], truth["8.4"], atol=0.02)
+made = prediction.kept_predictor(fresh)
+assert made is not None
+preparation.prepare_predictions(fresh)
+assert not preparation.is_preparing(fresh)
+assert prediction.predictor_of(fresh) is made
