@@ -21,7 +21,7 @@ from .background import Steps, part
 from .controls import has_controls, read_controls, shown_faps
 from .fap_faces import fit_steps
 from .head_empty import find_head, read_head
-from .performance import each_frame, read_frame, scene_rate
+from .performance import check_range, each_frame, read_frame, scene_rate
 
 
 @dataclass(frozen=True)
@@ -49,6 +49,7 @@ def export_motion_steps(context: Context, thing: Object, path: Path, frames: ran
     ------
     RetargetError : for another suffix, or where there is nothing to read.
     """
+    check_range(frames)
     match path.suffix.lower():
         case ".fap":
             return (yield from _faps_steps(context, thing, path, frames, source))
