@@ -56,7 +56,7 @@ def state(context: Context, step: str) -> str:
     done = {
         "FACES": _face_advice(context, task) is None,
         "POINTS": _both(task) and _point_advice(context, task) is None,
-        "EXAMPLES": len(task.examples) > 0,
+        "EXAMPLES": any(one.source_state == one.target_state == "SCULPTED" for one in task.examples),
         "RETARGET": _both(task) and is_baked(task.target, first_frame(context)),
     }
     if done.get(step):
