@@ -1,4 +1,4 @@
-"""While something is computed its progress stands in the sidebar; the view turns, keys do nothing, a button stops it."""
+"""While something is computed: its progress stands in the sidebar, the view turns, keys do nothing, a button stops."""
 
 import bpy
 from drive import (
