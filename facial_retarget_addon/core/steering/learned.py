@@ -81,6 +81,18 @@ class SteeringBase:
         moved = np.abs(self.source_points.positions(displacement)).max(initial=0.0)
         return bool(moved > _STILL * self.source_separation)
 
+    @cached_property
+    def regions(self) -> ExampleRegions:
+        """What is the same for all examples."""
+        return ExampleRegions(
+            self.source_points.positions(self.source.vertices),
+            self.source_separation,
+            self.target_points.positions(self.target.vertices),
+            self.target.vertices,
+            self.target.vertex_areas,
+            self.target_separation,
+        )
+
     def moved(self, examples: list[Example]) -> BoolArray:
         """(Vt,) whether any example moves a vertex of the target."""
         own: BoolArray = np.zeros(len(self.target.vertices), bool)
@@ -101,7 +113,7 @@ class Steering:
 
     Attributes
     ----------
-    base, examples, pairs, regions, trust : what they were learned from.
+    base, examples, pairs, trust : what they were learned from.
     residuals : what was learned.
     rest : (Vs, 3) float32, the source's neutral. read : (B, Vs) csr float32, its values at the base.
     """
@@ -109,7 +121,6 @@ class Steering:
     base: SteeringBase
     examples: list[Example]
     pairs: ExamplePairs
-    regions: ExampleRegions
     trust: float
     residuals: ExampleResiduals
     rest: FloatArray
@@ -127,7 +138,7 @@ class Steering:
             met = self.residuals.steer(self.pairs.carried[m : m + 1], self.pairs.base[m : m + 1])[0]
             figure: dict[str, Any] = {"name": example.name, "fit": self.base.error(met, example.target)}
             if len(self.examples) > 1:
-                foretold = self.regions.leave_one_out(self.pairs, m, self.trust)
+                foretold = self.base.regions.leave_one_out(self.pairs, m, self.trust)
                 figure["leave_one_out"] = self.base.error(foretold, example.target)
             figures.append(figure)
         return figures
@@ -149,14 +160,6 @@ def learn(
     at_base = np.stack([base.source_points.positions(displacement) for displacement in source])
     carried = motion((base.source.vertices + source).astype(np.float32))
     pairs = ExamplePairs(at_base, carried, np.stack([example.target for example in examples]))
-    regions = ExampleRegions(
-        base.source_points.positions(base.source.vertices),
-        base.source_separation,
-        base.target_points.positions(base.target.vertices),
-        base.target.vertices,
-        base.target.vertex_areas,
-        base.target_separation,
-    )
     rest = base.source.vertices.astype(np.float32)
     read = base.source_points.matrix(len(rest)).astype(np.float32)
-    return Steering(base, examples, pairs, regions, trust, regions.fit(pairs, trust), rest, read)
+    return Steering(base, examples, pairs, trust, base.regions.fit(pairs, trust), rest, read)
