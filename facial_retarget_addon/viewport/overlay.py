@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any
+
 import bpy
 import gpu
 from bpy.app.handlers import persistent
@@ -15,7 +18,7 @@ from .diagram import draw_diagram
 from .faces import FaceMarks, face_marks, forget, shown_faces
 from .heat import draw_heat, draw_legend, heated
 from .hover import hovered
-from .labels import Label, draw_labels, draw_trouble, spread_labels
+from .labels import Box, Label, draw_labels, draw_trouble, spread_labels
 from .lines import draw_lines
 from .marks import COLOURS, DOUBTFUL, draw_marks
 from .projection import screen_places
@@ -26,6 +29,8 @@ LINE, WARNING = linear(0.86, 0.92, 0.98), COLOURS[DOUBTFUL]
 """Of the base mesh, and of its triangles that fold over."""
 
 _handles: list[object] = []
+_names: dict[int, tuple[Any, list[tuple[Box, str]]]] = {}
+"""Labels by the region's address, and of what they were placed: a view that stands still places none anew."""
 
 
 def _shows(context: Context) -> bool:
@@ -88,9 +93,21 @@ def _draw_pixels() -> None:
 
 def _draw_names(context: Context, scale: float, every: bool) -> None:
     """The name of the point under the mouse in full, and the short ones of all that we see if they are wanted."""
+    region = context.region
+    faces = [(face_marks(context, thing), thing) for thing in shown_faces(context)]
+    view = tuple(value for row in context.region_data.perspective_matrix for value in row)
+    state = (view, region.width, region.height, scale, every, hovered(), *(marks for marks, _ in faces))
+    known = _names.get(region.as_pointer())
+    if known is None or known[0] != state:
+        known = _names[region.as_pointer()] = (state, _placed_names(context, scale, every, faces))
+    draw_labels(known[1], scale)
+
+
+def _placed_names(
+    context: Context, scale: float, every: bool, faces: Sequence[tuple[FaceMarks, Object]]
+) -> list[tuple[Box, str]]:
     full, short, boxes = [], [], []
-    for thing in shown_faces(context):
-        marks = face_marks(context, thing)
+    for marks, thing in faces:
         hot = hovered().row if hovered().thing == thing.session_uid else -1
         if not len(marks.names) or not (every or 0 <= hot < len(marks.names)):
             continue
@@ -104,11 +121,10 @@ def _draw_names(context: Context, scale: float, every: bool) -> None:
             elif every:
                 short.append(Label(marks.names[row], x, y, size + 4 * scale))
                 boxes.append((x - size, y - size, x + size, y + size))
-    region = context.region
-    placed = list(spread_labels(full, (), scale, region.width, region.height))
+    width, height = context.region.width, context.region.height
+    placed = list(spread_labels(full, (), scale, width, height))
     boxes += [box for box, _ in placed]
-    placed += spread_labels(short, boxes, scale, region.width, region.height)
-    draw_labels(placed, scale)
+    return placed + list(spread_labels(short, boxes, scale, width, height))
 
 
 def _full_name(marks: FaceMarks, row: int) -> str:
@@ -123,6 +139,7 @@ def _full_name(marks: FaceMarks, row: int) -> str:
 @persistent
 def _forget(*_: object) -> None:
     forget()
+    _names.clear()
     for part in (base, heat, trouble):
         part.forget()
 
