@@ -1,10 +1,10 @@
 """Facial Retarget, a Blender extension. Enabling it loads neither SciPy nor Embree: operators do when they run."""
 
 from . import operators, panels
-from .facial_retarget_addon import manual, preview_watch, properties, viewport
+from .facial_retarget_addon import manual, preview_watch, properties, translations, viewport
 from .facial_retarget_addon.bridge import geometry_watch
 
-PARTS = (properties, geometry_watch, preview_watch, operators, viewport, panels, manual)
+PARTS = (properties, geometry_watch, preview_watch, operators, viewport, panels, manual, translations)
 
 
 def register() -> None:
