@@ -9,8 +9,8 @@ from time import perf_counter
 import bpy
 
 from facial_retarget_addon import demo, properties
-from facial_retarget_addon.bridge import point_places, point_prediction, points
 from facial_retarget_addon.bridge.meshes import new_object
+from facial_retarget_addon.bridge.points import point_places, point_prediction, points
 from facial_retarget_addon.core.point_sets import POINT_SETS
 from facial_retarget_addon.core.points import FeaturePoints
 

@@ -11,10 +11,10 @@ import numpy as np
 from facial_retarget_addon import demo, properties
 from facial_retarget_addon.bridge.background import finished
 from facial_retarget_addon.bridge.bakes.frames import write_frames
-from facial_retarget_addon.bridge.examples import write_example
+from facial_retarget_addon.bridge.examples.examples import write_example
 from facial_retarget_addon.bridge.meshes import new_object
-from facial_retarget_addon.bridge.points import write_points
-from facial_retarget_addon.bridge.preview import preview_steps, stop_preview
+from facial_retarget_addon.bridge.points.points import write_points
+from facial_retarget_addon.bridge.preview.preview import preview_steps, stop_preview
 from facial_retarget_addon.core.methods.base import fit
 from facial_retarget_addon.core.methods.settings import HierarchicalSettings
 from facial_retarget_addon.core.problem import Face, Problem

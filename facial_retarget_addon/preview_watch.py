@@ -8,7 +8,7 @@ from .preview_state import STATE
 @bpy.app.handlers.persistent
 def _clean(*_: object) -> None:
     """Clean up a file that Blender saved by itself while a preview was on."""
-    from .bridge.preview_keys import remove_every_key
+    from .bridge.preview.preview_keys import remove_every_key
 
     remove_every_key()
 

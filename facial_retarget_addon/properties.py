@@ -135,21 +135,21 @@ POINT_LISTS = [
 
 def _set_chosen(face: PropertyGroup, context: Context) -> None:
     """Propose what the other set has, and nothing that it does not have."""
-    from .bridge.point_prediction import update_predictions
+    from .bridge.points.point_prediction import update_predictions
 
     if face.id_data.type == "MESH":
         update_predictions(face.id_data)
 
 
 def _has_stale_points(face: PropertyGroup) -> bool:
-    from .bridge.topology import has_stale_points
+    from .bridge.points.topology import has_stale_points
 
     return has_stale_points(face.id_data)
 
 
 def _show_finding(face: PropertyGroup, context: Context) -> None:
     """Go to what was clicked in the list."""
-    from .bridge.findings import show_finding
+    from .bridge.reports.findings import show_finding
 
     show_finding(context.scene, face.id_data)
 
@@ -257,7 +257,7 @@ class FACIAL_RETARGET_PG_example(PropertyGroup):
 
     def _state(self, side: str) -> str:
         """What `bridge.example_states` says of the example."""
-        from .bridge.example_states import states_of
+        from .bridge.examples.example_states import states_of
 
         state = states_of(self.id_data.facial_retarget).get(self.name)
         return "" if state is None else getattr(state, side)
@@ -272,7 +272,7 @@ class FACIAL_RETARGET_PG_example(PropertyGroup):
         return self._state("warning")
 
     def _checked(self) -> bool:
-        from .bridge.example_states import stamp_of
+        from .bridge.examples.example_states import stamp_of
 
         task = self.id_data.facial_retarget
         return self.fit >= 0 and task.examples_checked == stamp_of(task)

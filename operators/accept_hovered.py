@@ -32,7 +32,7 @@ class FACIAL_RETARGET_OT_accept_hovered(WithTool, Operator):
     @tells_user
     def execute(self, context: Context) -> set[str]:
         """Accept it."""
-        from ..facial_retarget_addon.bridge.point_moves import accept_point
+        from ..facial_retarget_addon.bridge.points.point_moves import accept_point
         from ..facial_retarget_addon.viewport.state import needed_face
 
         accept_point(needed_face(context), self.name)

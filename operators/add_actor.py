@@ -33,7 +33,7 @@ class FACIAL_RETARGET_OT_add_actor(InSteps, Operator):
 
     def steps(self, context: Context) -> Any:
         """Make it, then write it."""
-        from ..facial_retarget_addon.bridge.donors import add_actor_steps
+        from ..facial_retarget_addon.bridge.cloning.donors import add_actor_steps
 
         return add_actor_steps(context, self.sets)
 

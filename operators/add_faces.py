@@ -35,7 +35,7 @@ class FACIAL_RETARGET_OT_add_faces(InSteps, Operator):
 
     def steps(self, context: Context) -> Any:
         """Make them, then write them."""
-        from ..facial_retarget_addon.bridge.demo_pair import add_pair_steps
+        from ..facial_retarget_addon.bridge.scene.demo_pair import add_pair_steps
 
         return add_pair_steps(context, self.target, self.points)
 

@@ -34,7 +34,7 @@ class FACIAL_RETARGET_OT_add_point(OnFace, Operator):
     def execute(self, context: Context) -> set[str]:
         """Add the point."""
         from ..facial_retarget_addon.bridge import points
-        from ..facial_retarget_addon.bridge.point_prediction import update_predictions
+        from ..facial_retarget_addon.bridge.points.point_prediction import update_predictions
 
         thing = context.active_object
         if self.place == "VERTEX":

@@ -19,7 +19,7 @@ class FACIAL_RETARGET_OT_clone_shapes(OnCloning, InSteps, Operator):
 
     def steps(self, context: Context) -> Any:
         """Read, compute, write."""
-        from ..facial_retarget_addon.bridge.cloning import clone_steps
+        from ..facial_retarget_addon.bridge.cloning.cloning import clone_steps
 
         return clone_steps(context)
 
@@ -42,7 +42,7 @@ class FACIAL_RETARGET_OT_find_corrected(OnCloning, Operator):
     @tells_user
     def execute(self, context: Context) -> set[str]:
         """Compare the keys with what was cloned."""
-        from ..facial_retarget_addon.bridge.resolving import mark_corrected
+        from ..facial_retarget_addon.bridge.cloning.resolving import mark_corrected
 
         self.report({"INFO"}, f"{mark_corrected(context)} shape keys are corrected")
         return {"FINISHED"}
@@ -58,7 +58,7 @@ class FACIAL_RETARGET_OT_resolve_shapes(OnCloning, InSteps, Operator):
 
     def steps(self, context: Context) -> Any:
         """Read, compute, write."""
-        from ..facial_retarget_addon.bridge.resolving import resolve_steps
+        from ..facial_retarget_addon.bridge.cloning.resolving import resolve_steps
 
         return resolve_steps(context)
 

@@ -31,7 +31,7 @@ class FACIAL_RETARGET_OT_copy_points(OnFace, InSteps, Operator):
 
     def steps(self, context: Context) -> Any:
         """Find all places, then place the points."""
-        from ..facial_retarget_addon.bridge.point_copies import copy_steps
+        from ..facial_retarget_addon.bridge.points.point_copies import copy_steps
 
         source = context.active_object
         targets = [thing for thing in context.selected_objects if thing.type == "MESH" and thing != source]

@@ -16,7 +16,7 @@ class FACIAL_RETARGET_OT_create_examples(OnTask, Operator):
     @tells_user
     def execute(self, context: Context) -> set[str]:
         """Add the shape keys that are missing."""
-        from ..facial_retarget_addon.bridge.examples import create_examples
+        from ..facial_retarget_addon.bridge.examples.examples import create_examples
 
         create_examples(context.scene.facial_retarget)
         return {"FINISHED"}

@@ -30,7 +30,7 @@ class FACIAL_RETARGET_OT_drop_point(WithTool, Operator):
     @tells_user
     def execute(self, context: Context) -> set[str]:
         """Remove it, and its partner with X Mirror."""
-        from ..facial_retarget_addon.bridge.point_moves import drop_point
+        from ..facial_retarget_addon.bridge.points.point_moves import drop_point
         from ..facial_retarget_addon.viewport.state import needed_face
 
         drop_point(needed_face(context), self.name, context.scene.facial_retarget.mirror_points)

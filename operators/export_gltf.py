@@ -31,7 +31,7 @@ class FACIAL_RETARGET_OT_export_gltf(OnTask, Operator, ExportHelper):
     @tells_user
     def execute(self, context: Context) -> set[str]:
         """Export the head alone."""
-        from ..facial_retarget_addon.bridge.selection import head_selected
+        from ..facial_retarget_addon.bridge.scene.selection import head_selected
 
         with head_selected(context, context.scene.facial_retarget.target):
             bpy.ops.export_scene.gltf(filepath=self.filepath, use_selection=True)

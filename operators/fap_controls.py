@@ -18,7 +18,7 @@ class FACIAL_RETARGET_OT_make_controls(OnPoints, InSteps, Operator):
 
     def steps(self, context: Context) -> Any:
         """Fit the face, then write properties, keys and drivers."""
-        from ..facial_retarget_addon.bridge.controls import make_controls_steps
+        from ..facial_retarget_addon.bridge.motion.controls import make_controls_steps
 
         return make_controls_steps(context.active_object)
 
@@ -38,7 +38,7 @@ class FACIAL_RETARGET_OT_remove_controls(OnFace, Operator):
 
     def execute(self, context: Context) -> set[str]:
         """Remove them."""
-        from ..facial_retarget_addon.bridge.controls import remove_controls
+        from ..facial_retarget_addon.bridge.motion.controls import remove_controls
 
         remove_controls(context.active_object)
         return {"FINISHED"}

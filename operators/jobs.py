@@ -77,7 +77,7 @@ class FACIAL_RETARGET_OT_save_clone_job(OnCloning, Operator, ExportHelper):
     @tells_user
     def execute(self, context: Context) -> set[str]:
         """Write the files, the job itself last."""
-        from ..facial_retarget_addon.bridge.clone_job import save_clone_job
+        from ..facial_retarget_addon.bridge.cloning.clone_job import save_clone_job
 
         save_clone_job(context, Path(self.filepath))
         self.report({"INFO"}, f"Saved {self.filepath}")

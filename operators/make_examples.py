@@ -77,7 +77,7 @@ class FACIAL_RETARGET_OT_rough_out(OnExample, InSteps, Operator):
 
     def steps(self, context: Context) -> Any:
         """Read, compute, write."""
-        from ..facial_retarget_addon.bridge.example_making import rough_out_steps
+        from ..facial_retarget_addon.bridge.examples.example_making import rough_out_steps
 
         return rough_out_steps(context, self.names(context), self.side, self.way, self.existing == "REPLACE")
 
@@ -112,7 +112,7 @@ class FACIAL_RETARGET_OT_mirror_example(OnExample, InSteps, Operator):
 
     def steps(self, context: Context) -> Any:
         """Find what lies opposite to what, then write."""
-        from ..facial_retarget_addon.bridge.example_making import mirror_steps
+        from ..facial_retarget_addon.bridge.examples.example_making import mirror_steps
 
         return mirror_steps(context, self.names(context), self.side, self.way)
 
@@ -144,8 +144,8 @@ class FACIAL_RETARGET_OT_scale_example(OnExample, Operator):
     @tells_user
     def execute(self, context: Context) -> set[str]:
         """Scale the shape key."""
-        from ..facial_retarget_addon.bridge.example_making import scale_example
-        from ..facial_retarget_addon.bridge.examples import chosen_example
+        from ..facial_retarget_addon.bridge.examples.example_making import scale_example
+        from ..facial_retarget_addon.bridge.examples.examples import chosen_example
 
         scale_example(self.face(context), chosen_example(context.scene.facial_retarget, self.example), self.factor)
         return {"FINISHED"}
@@ -161,7 +161,7 @@ class FACIAL_RETARGET_OT_check_examples(OnTask, InSteps, Operator):
 
     def steps(self, context: Context) -> Any:
         """Fit the method, keep the figures."""
-        from ..facial_retarget_addon.bridge.example_checking import check_steps
+        from ..facial_retarget_addon.bridge.examples.example_checking import check_steps
 
         return check_steps(context)
 

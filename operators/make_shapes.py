@@ -40,7 +40,7 @@ class FACIAL_RETARGET_OT_make_shapes(OnPoints, InSteps, Operator):
 
     def steps(self, context: Context) -> Any:
         """Fit the face, then write the keys."""
-        from ..facial_retarget_addon.bridge.expression_keys import make_shapes_steps
+        from ..facial_retarget_addon.bridge.motion.expression_keys import make_shapes_steps
 
         return make_shapes_steps(context.active_object, self.sets, self.existing == "REPLACE")
 

@@ -71,7 +71,7 @@ class FACIAL_RETARGET_OT_import_motion(OnFace, FromBrowser, ImportHelper, InStep
 
     def steps(self, context: Context) -> Any:
         """Read, compute, write."""
-        from ..facial_retarget_addon.bridge.motion_import import ImportOptions, import_motion_steps
+        from ..facial_retarget_addon.bridge.motion.motion_import import ImportOptions, import_motion_steps
 
         options = ImportOptions(
             path=Path(self.filepath),
@@ -134,7 +134,7 @@ class FACIAL_RETARGET_OT_export_motion(OnFace, FromBrowser, ExportHelper, InStep
 
     def steps(self, context: Context) -> Any:
         """Read frame after frame, then write the file."""
-        from ..facial_retarget_addon.bridge.motion_export import export_motion_steps
+        from ..facial_retarget_addon.bridge.motion.motion_export import export_motion_steps
 
         frames = range(self.frame_start, self.frame_end + 1)
         return export_motion_steps(context, context.active_object, Path(self.filepath), frames, self.source)

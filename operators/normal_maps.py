@@ -31,7 +31,7 @@ class FACIAL_RETARGET_OT_make_normal_maps(OnTask, InSteps, Operator):
 
     def steps(self, context: Context) -> Any:
         """Read, compute, write."""
-        from ..facial_retarget_addon.bridge.normal_maps import normal_map_steps
+        from ..facial_retarget_addon.bridge.maps.normal_maps import normal_map_steps
 
         return normal_map_steps(context)
 

@@ -60,7 +60,7 @@ class FACIAL_RETARGET_OT_place_point(WithTool, Operator):
     @tells_user
     def execute(self, context: Context) -> set[str]:
         """Place it where the surface is closest to the location."""
-        from ..facial_retarget_addon.bridge.point_moves import put_point_near
+        from ..facial_retarget_addon.bridge.points.point_moves import put_point_near
         from ..facial_retarget_addon.viewport.state import needed_face
 
         depsgraph, mirrored = context.evaluated_depsgraph_get(), context.scene.facial_retarget.mirror_points

@@ -24,8 +24,8 @@ class FACIAL_RETARGET_OT_load_points(OnFace, Operator, ImportHelper):
     def execute(self, context: Context) -> set[str]:
         """Read, check against the mesh, then replace."""
         from ..facial_retarget_addon.bridge.meshes import neutral_mesh
-        from ..facial_retarget_addon.bridge.point_prediction import update_predictions
-        from ..facial_retarget_addon.bridge.points import write_points
+        from ..facial_retarget_addon.bridge.points.point_prediction import update_predictions
+        from ..facial_retarget_addon.bridge.points.points import write_points
         from ..facial_retarget_addon.files.points import read_points
 
         thing = context.active_object
@@ -49,7 +49,7 @@ class FACIAL_RETARGET_OT_save_points(OnPoints, Operator, ExportHelper):
     @tells_user
     def execute(self, context: Context) -> set[str]:
         """Write the file, whole or not at all."""
-        from ..facial_retarget_addon.bridge.points import read_points
+        from ..facial_retarget_addon.bridge.points.points import read_points
         from ..facial_retarget_addon.files.points import write_points
 
         thing = context.active_object

@@ -23,7 +23,7 @@ class FACIAL_RETARGET_OT_guess_points(OnFace, InSteps, Operator):
 
     def steps(self, context: Context) -> Any:
         """Look for the face, then propose."""
-        from ..facial_retarget_addon.bridge.point_prediction import guess_steps
+        from ..facial_retarget_addon.bridge.points.point_prediction import guess_steps
 
         self._thing = context.active_object
         return guess_steps(self._thing)
@@ -57,7 +57,7 @@ class FACIAL_RETARGET_OT_mirror_points(OnPoints, Operator):
     @tells_user
     def execute(self, context: Context) -> set[str]:
         """Mirror them."""
-        from ..facial_retarget_addon.bridge.point_prediction import mirror_points, names_to_mirror
+        from ..facial_retarget_addon.bridge.points.point_prediction import mirror_points, names_to_mirror
 
         thing = context.active_object
         placed = mirror_points(thing, names_to_mirror(thing, self.which))
@@ -77,7 +77,7 @@ class FACIAL_RETARGET_OT_accept_point(OnProposals, Operator):
     @tells_user
     def execute(self, context: Context) -> set[str]:
         """Place it, and predict the others anew."""
-        from ..facial_retarget_addon.bridge.point_prediction import accept_proposals, chosen_proposal
+        from ..facial_retarget_addon.bridge.points.point_prediction import accept_proposals, chosen_proposal
 
         thing = context.active_object
         accept_proposals(thing, [self.name or chosen_proposal(thing)])
@@ -94,7 +94,7 @@ class FACIAL_RETARGET_OT_accept_points(OnProposals, Operator):
     @tells_user
     def execute(self, context: Context) -> set[str]:
         """Place them all."""
-        from ..facial_retarget_addon.bridge.point_prediction import accept_proposals
+        from ..facial_retarget_addon.bridge.points.point_prediction import accept_proposals
 
         count = accept_proposals(context.active_object)
         self.report({"INFO"}, f"{count} feature points accepted")
@@ -110,7 +110,7 @@ class FACIAL_RETARGET_OT_clear_proposals(OnProposals, Operator):
 
     def execute(self, context: Context) -> set[str]:
         """Forget them."""
-        from ..facial_retarget_addon.bridge.points import read_proposals, write_proposals
+        from ..facial_retarget_addon.bridge.points.points import read_proposals, write_proposals
 
         thing = context.active_object
         write_proposals(thing, read_proposals(thing).subset([]))
@@ -129,8 +129,8 @@ class FACIAL_RETARGET_OT_want_point(OnFace, Operator):
     @tells_user
     def execute(self, context: Context) -> set[str]:
         """Take it back, and propose the point."""
-        from ..facial_retarget_addon.bridge.point_prediction import update_predictions
-        from ..facial_retarget_addon.bridge.points import want_point
+        from ..facial_retarget_addon.bridge.points.point_prediction import update_predictions
+        from ..facial_retarget_addon.bridge.points.points import want_point
 
         want_point(context.active_object, self.name)
         update_predictions(context.active_object)

@@ -21,7 +21,7 @@ class FACIAL_RETARGET_OT_start_preview(OnTask, InSteps, Operator):
 
     def steps(self, context: Context) -> Any:
         """Fit, then follow."""
-        from ..facial_retarget_addon.bridge.preview import preview_steps
+        from ..facial_retarget_addon.bridge.preview.preview import preview_steps
 
         return preview_steps(context)
 
@@ -50,7 +50,7 @@ class FACIAL_RETARGET_OT_stop_preview(Operator):
 
     def execute(self, context: Context) -> set[str]:
         """Stop."""
-        from ..facial_retarget_addon.bridge.preview import stop_preview
+        from ..facial_retarget_addon.bridge.preview.preview import stop_preview
 
         stop_preview()
         return {"FINISHED"}
@@ -66,7 +66,7 @@ class FACIAL_RETARGET_OT_compare(OnTask, InSteps, Operator):
 
     def steps(self, context: Context) -> Any:
         """Fit and measure."""
-        from ..facial_retarget_addon.bridge.preview import compare_steps
+        from ..facial_retarget_addon.bridge.preview.preview import compare_steps
 
         return compare_steps(context)
 

@@ -19,8 +19,8 @@ class FACIAL_RETARGET_OT_refresh_points(OnFace, Operator):
     @tells_user
     def execute(self, context: Context) -> set[str]:
         """Refresh, and report."""
-        from ..facial_retarget_addon.bridge.point_prediction import update_predictions
-        from ..facial_retarget_addon.bridge.points import refresh_points
+        from ..facial_retarget_addon.bridge.points.point_prediction import update_predictions
+        from ..facial_retarget_addon.bridge.points.points import refresh_points
 
         thing = context.active_object
         settled = refresh_points(thing)

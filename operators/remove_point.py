@@ -16,8 +16,8 @@ class FACIAL_RETARGET_OT_remove_point(OnChosen, Operator):
     @tells_user
     def execute(self, context: Context) -> set[str]:
         """Remove the point that is chosen in the list."""
-        from ..facial_retarget_addon.bridge.point_prediction import update_predictions
-        from ..facial_retarget_addon.bridge.points import remove_point
+        from ..facial_retarget_addon.bridge.points.point_prediction import update_predictions
+        from ..facial_retarget_addon.bridge.points.points import remove_point
 
         face = context.active_object.facial_retarget
         remove_point(context.active_object, face.points[face.active_point].name)

@@ -38,8 +38,8 @@ class FACIAL_RETARGET_OT_sculpt_example(OnTask, Operator):
     @tells_user
     def execute(self, context: Context) -> set[str]:
         """Enter Sculpt Mode."""
-        from ..facial_retarget_addon.bridge.example_sculpting import start_sculpting
-        from ..facial_retarget_addon.bridge.examples import chosen_example
+        from ..facial_retarget_addon.bridge.examples.example_sculpting import start_sculpting
+        from ..facial_retarget_addon.bridge.examples.examples import chosen_example
 
         thing = start_sculpting(context, chosen_example(context.scene.facial_retarget, self.example), self.side)
         self.report({"INFO"}, f"Sculpting {thing.active_shape_key.name} on {thing.name}")
@@ -63,7 +63,7 @@ class FACIAL_RETARGET_OT_stop_sculpting(Operator):
 
     def execute(self, context: Context) -> set[str]:
         """Leave Sculpt Mode."""
-        from ..facial_retarget_addon.bridge.example_sculpting import stop_sculpting
+        from ..facial_retarget_addon.bridge.examples.example_sculpting import stop_sculpting
 
         stop_sculpting(context)
         return {"FINISHED"}

@@ -36,7 +36,7 @@ class FACIAL_RETARGET_OT_select_trouble(Operator):
     @tells_user
     def execute(self, context: Context) -> set[str]:
         """Select them."""
-        from ..facial_retarget_addon.bridge.findings import select_spots
+        from ..facial_retarget_addon.bridge.reports.findings import select_spots
 
         count = select_spots(guide.found_face(context), self.kind)
         self.report({"INFO"}, f"{count} vertices selected")

@@ -22,7 +22,7 @@ class FACIAL_RETARGET_OT_set_up_workspace(OnTask, Operator):
 
     def execute(self, context: Context) -> set[str]:
         """Begin: the rest is done by a timer."""
-        from ..facial_retarget_addon.bridge.workspace import open_steps
+        from ..facial_retarget_addon.bridge.scene.workspace import open_steps
 
         steps = open_steps(context.window)
         bpy.app.timers.register(lambda: next(steps, None))

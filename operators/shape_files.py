@@ -26,7 +26,7 @@ class FACIAL_RETARGET_OT_load_shapes(OnFace, Operator, ImportHelper):
     @tells_user
     def execute(self, context: Context) -> set[str]:
         """Read, check against the head, then write."""
-        from ..facial_retarget_addon.bridge.shape_tables import load_shapes
+        from ..facial_retarget_addon.bridge.cloning.shape_tables import load_shapes
 
         made, kept = load_shapes(context.active_object, Path(self.filepath), self.existing)
         self.report({"INFO"}, f"{made} shape keys loaded, {kept} kept")
@@ -46,7 +46,7 @@ class FACIAL_RETARGET_OT_save_shapes(OnFace, Operator, ExportHelper):
     @tells_user
     def execute(self, context: Context) -> set[str]:
         """Write the file, whole or not at all."""
-        from ..facial_retarget_addon.bridge.shape_tables import save_shapes
+        from ..facial_retarget_addon.bridge.cloning.shape_tables import save_shapes
 
         self.report({"INFO"}, f"{save_shapes(context.active_object, Path(self.filepath))} shape keys saved")
         return {"FINISHED"}

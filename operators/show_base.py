@@ -16,7 +16,7 @@ class FACIAL_RETARGET_OT_show_base(OnTask, Operator):
     @tells_user
     def execute(self, context: Context) -> set[str]:
         """Build, then show."""
-        from ..facial_retarget_addon.bridge.base_object import show_base
+        from ..facial_retarget_addon.bridge.points.base_object import show_base
         from ..facial_retarget_addon.bridge.task import read_problem
         from ..facial_retarget_addon.core.base.base_mesh import base_mesh
 

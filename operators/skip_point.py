@@ -19,7 +19,7 @@ class FACIAL_RETARGET_OT_skip_point(WithTool, Operator):
     @tells_user
     def execute(self, context: Context) -> set[str]:
         """Skip, or go back."""
-        from ..facial_retarget_addon.bridge.point_moves import go_back, skip_turn
+        from ..facial_retarget_addon.bridge.points.point_moves import go_back, skip_turn
         from ..facial_retarget_addon.viewport.state import needed_face
 
         thing = needed_face(context)

@@ -18,7 +18,7 @@ from facial_retarget_addon import demo, properties
 from facial_retarget_addon.bridge.background import finished
 from facial_retarget_addon.bridge.bakes.frames import write_frames
 from facial_retarget_addon.bridge.meshes import neutral_mesh, new_face, read_polygons, read_positions
-from facial_retarget_addon.bridge.points import write_points
+from facial_retarget_addon.bridge.points.points import write_points
 from facial_retarget_addon.bridge.retargeting import retarget_steps
 from facial_retarget_addon.files.frames import read_frames
 from facial_retarget_addon.files.images import png_bytes

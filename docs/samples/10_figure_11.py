@@ -19,7 +19,7 @@ from scipy.ndimage import binary_erosion
 
 from facial_retarget_addon import demo
 from facial_retarget_addon.bridge.bakes.frames import write_frames
-from facial_retarget_addon.bridge.map_nodes import MapSequence, wire
+from facial_retarget_addon.bridge.maps.map_nodes import MapSequence, wire
 from facial_retarget_addon.bridge.meshes import new_object
 from facial_retarget_addon.core.level_retargeter import LevelRetargeter
 from facial_retarget_addon.core.methods.base import fit

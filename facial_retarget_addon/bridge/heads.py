@@ -17,7 +17,7 @@ from ..core.problem import Face
 from ..files.mesh_file import MeshFile
 from .key_sets import group_weights, key_names
 from .meshes import evaluated_positions, from_face_space, read_positions, read_surface, stretch
-from .points import read_points
+from .points.points import read_points
 from .shape_keys import find_key, key_displacement
 
 BY_PLACE = "AUTO"

@@ -23,15 +23,15 @@ from ..files.run import Inputs, read_inputs
 from ..files.whole import Aside, appear_whole, written_aside
 from .background import Steps, in_thread, part
 from .bakes.frames import write_frames
-from .base_object import show_triangles
 from .beside import Beside
-from .examples import write_example
+from .examples.examples import write_example
 from .gains import write_gains
 from .heads import write_named_parts
-from .map_output import map_output, show_map_output
+from .maps.map_output import map_output, show_map_output
 from .meshes import new_face
 from .performance import read_frames
-from .points import write_points
+from .points.base_object import show_triangles
+from .points.points import write_points
 from .settings import read_task_settings, write_task_settings
 from .task import frame_times, read_heads, read_problem
 

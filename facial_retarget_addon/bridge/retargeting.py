@@ -16,12 +16,12 @@ from ..files.pages.report import report_json, report_page
 from ..files.whole import Aside, written_whole
 from .background import Steps, in_thread, part
 from .bakes.bake import bake_steps, read_wish
-from .findings import write_frame_findings
 from .heads import head_parts, read_head
 from .key_sets import check_targets
-from .level_object import show_levels
 from .performance import read_frames
-from .preview import stop_preview
+from .preview.preview import stop_preview
+from .reports.findings import write_frame_findings
+from .scene.level_object import show_levels
 from .settings import read_task_settings
 from .task import frame_times, read_problem
 

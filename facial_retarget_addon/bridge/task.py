@@ -10,11 +10,11 @@ from ..core.arrays import FloatArray
 from ..core.errors import RetargetError
 from ..core.problem import Face, Problem
 from .bakes.times import FrameTimes
-from .base_object import read_base
-from .examples import read_examples
+from .examples.examples import read_examples
 from .gains import read_gains
 from .heads import Head, head_parts, read_head
 from .performance import frame_kept, read_frame
+from .points.base_object import read_base
 from .raycast import available_caster
 
 

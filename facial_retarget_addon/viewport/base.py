@@ -10,7 +10,7 @@ import numpy as np
 from bpy.types import Context, Object, Scene
 from gpu.types import GPUBatch
 
-from ..bridge.redraw import redraw_views
+from ..bridge.scene.redraw import redraw_views
 from ..core.errors import RetargetError
 from .changes import look, stored_points
 from .lines import line_batch, triangle_batch
@@ -99,7 +99,7 @@ def _state(scene: Scene) -> Any:
 
 def _stamp(thing: Object) -> tuple[int, int]:
     """An object and the state of its Basis, read only when something about the object has changed."""
-    from ..bridge.base_lines import shape_stamp
+    from ..bridge.points.base_lines import shape_stamp
 
     known = _base.stamps.get(thing.session_uid)
     if thing.data.is_editmode:  # the mesh is what it was before; it is read when Edit Mode is left
@@ -121,7 +121,7 @@ def _begin(state: Any) -> None:
 def _go_on() -> float | None:
     """A turn of the timer: begin, look at the thread, or take what it has made. Seconds to the next turn."""
     from ..bridge.background import in_thread
-    from ..bridge.base_lines import base_lines_work
+    from ..bridge.points.base_lines import base_lines_work
 
     made: tuple[dict[int, Any], str] = ({}, "")
     try:
@@ -150,7 +150,7 @@ def _go_on() -> float | None:
 
 
 def _batches(thing: Object, depsgraph: Any, lines: Any) -> tuple[Any, GPUBatch | None, GPUBatch | None]:
-    from ..bridge.point_places import shown_vertices
+    from ..bridge.points.point_places import shown_vertices
 
     state = (look(thing), id(lines))
     vertices = shown_vertices(thing, depsgraph)

@@ -99,7 +99,7 @@ def face_marks(context: Context, thing: Object) -> FaceMarks:
 
 
 def _make(thing: Object, depsgraph: Any, active: int, turn: str, state: tuple[Any, ...]) -> FaceMarks:
-    from ..bridge.point_places import world_normals, world_places  # loads SciPy, which enabling does not
+    from ..bridge.points.point_places import world_normals, world_places  # loads SciPy, which enabling does not
 
     try:
         placed, at = world_places(thing, depsgraph)

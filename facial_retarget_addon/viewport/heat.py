@@ -128,8 +128,8 @@ def _draw_bar(left: float, bottom: float, wide: float, tall: float) -> None:
 
 
 def _make(context: Context, thing: Object, state: Any) -> Heat:
-    from ..bridge.heat import HeatFigures  # loads SciPy, which enabling does not
-    from ..bridge.point_places import shown_vertices
+    from ..bridge.points.point_places import shown_vertices
+    from ..bridge.reports.heat import HeatFigures  # loads SciPy, which enabling does not
 
     if not _figures:
         _figures.append(HeatFigures())

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from bpy.types import Context, Event, Object
 
-from ..bridge.point_memory import put_back_points, remember_points
-from ..bridge.point_moves import put_point
-from ..bridge.point_preparation import prepare_predictions, update_when_prepared
-from ..bridge.redraw import redraw_views
-from ..bridge.shown_surface import ShownSurface, view_of
+from ..bridge.points.point_memory import put_back_points, remember_points
+from ..bridge.points.point_moves import put_point
+from ..bridge.points.point_preparation import prepare_predictions, update_when_prepared
+from ..bridge.points.shown_surface import ShownSurface, view_of
+from ..bridge.scene.redraw import redraw_views
 from ..core.arrays import FloatArray
 from ..core.errors import RetargetError
 from ..core.sliding import Place, Slide

@@ -72,7 +72,7 @@ def _prepare_soon(thing: Object) -> None:
     name = thing.name
 
     def prepare() -> None:
-        from ..bridge.point_preparation import prepare_predictions  # loads SciPy, which enabling does not
+        from ..bridge.points.point_preparation import prepare_predictions  # loads SciPy, which enabling does not
 
         found = bpy.data.objects.get(name)
         if found is not None and len(found.data.polygons):

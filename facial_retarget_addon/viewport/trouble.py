@@ -48,8 +48,8 @@ def _is_shown(context: Context, thing: Object) -> bool:
 
 
 def _batches(context: Context, thing: Object, state: Any) -> tuple[GPUBatch | None, GPUBatch | None]:
-    from ..bridge.findings import edges_among, unpacked  # loads SciPy, which enabling does not
-    from ..bridge.point_places import shown_vertices
+    from ..bridge.points.point_places import shown_vertices
+    from ..bridge.reports.findings import edges_among, unpacked  # loads SciPy, which enabling does not
 
     places = shown_vertices(thing, context.view_layer.depsgraph)
     if places is None or thing.facial_retarget.findings_vertices != len(places):

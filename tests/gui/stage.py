@@ -42,7 +42,7 @@ def add_suzanne() -> bpy.types.Object:
     made.data.shade_smooth()
     file = Path(__file__).resolve().parents[2] / "docs" / "samples" / "suzanne_points.json"
     points = part("files.points").read_points(file, part("bridge.meshes").neutral_mesh(made))
-    part("bridge.points").write_points(made, points)
+    part("bridge.points.points").write_points(made, points)
     choose(made)
     remember()
     return made
@@ -60,11 +60,11 @@ def add_face(built: Any, name: str, place: float = 0.0, points: bool = True) -> 
     made = part("bridge.meshes").new_face(name, file)
     low, high = built.face.mesh.vertices.min(axis=0), built.face.mesh.vertices.max(axis=0)
     middle, size = 0.5 * (low + high), 2.0 / (high[1] - low[1])
-    made.rotation_euler.x = part("bridge.donors").STANDING
+    made.rotation_euler.x = part("bridge.cloning.donors").STANDING
     made.scale = (size,) * 3
     made.location = (place - size * middle[0], size * middle[2], -size * middle[1])
     if points:
-        part("bridge.points").write_points(made, built.face.points)
+        part("bridge.points.points").write_points(made, built.face.points)
     choose(made)
     remember()
     return made
@@ -126,7 +126,7 @@ def check_unchanged(before: dict[str, object]) -> None:
 
 def point_places(thing: bpy.types.Object) -> dict[str, np.ndarray]:
     """Name -> (3,) place in the scene of each of an object's feature points, on its neutral."""
-    points = part("bridge.points")
+    points = part("bridge.points.points")
     world = np.array(thing.matrix_world)
     own = points.point_positions(thing)
     names = [point.name for point in thing.facial_retarget.points]

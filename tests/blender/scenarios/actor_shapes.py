@@ -34,7 +34,7 @@ actor.vertex_groups.remove(beard)
 built = part("demo").donor().face.named_parts
 assert named.keys() == built.keys()
 assert all(np.array_equal(np.sort(named[name]), np.sort(built[name])) for name in named)
-rows = part("bridge.points").point_positions(actor) @ np.array(actor.matrix_world)[:3, :3].T
+rows = part("bridge.points.points").point_positions(actor) @ np.array(actor.matrix_world)[:3, :3].T
 places = dict(zip([point.name for point in actor.facial_retarget.points], rows, strict=True))
 assert places["2.1"][2] < places["9.3"][2], "the chin is not below the nose"
 assert places["9.3"][1] < places["2.1"][1] + 0.5, "the face does not look along -Y"

@@ -9,7 +9,7 @@ from stage import empty_scene, grid, part, refused, wave
 
 folder = Path(sys.argv[1])
 empty_scene()
-bake, examples, points = (part(f"bridge.{name}") for name in ("bakes.frames", "examples", "points"))
+bake, examples, points = (part(f"bridge.{name}") for name in ("bakes.frames", "examples.examples", "points.points"))
 retarget = bpy.ops.facial_retarget.retarget
 task = bpy.context.scene.facial_retarget
 scene = bpy.context.scene
@@ -113,7 +113,7 @@ task.examples.clear()
 task.base = loose
 with refused("'no faces'", "feature_point"):
     retarget()
-task.base = part("bridge.base_object").show_triangles(task.source, (("p0", "p1", "p2"),))
+task.base = part("bridge.points.base_object").show_triangles(task.source, (("p0", "p1", "p2"),))
 task.base.data.attributes["feature_point"].data[1].value = b""
 with refused("'source base'", "vertex 1"):
     retarget()

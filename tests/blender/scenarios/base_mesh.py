@@ -8,8 +8,8 @@ empty_scene()
 demo, meshes, points, base_object = (
     part("demo"),
     part("bridge.meshes"),
-    part("bridge.points"),
-    part("bridge.base_object"),
+    part("bridge.points.points"),
+    part("bridge.points.base_object"),
 )
 task = bpy.context.scene.facial_retarget
 for role, face in (("source", demo.actor(12_000)), ("target", demo.targets()[1])):

@@ -66,7 +66,7 @@ assert jobs.read_clone_job(folder / "actor.toml").source == jobs.BuiltInActor(("
 
 def built_in(sets: tuple[str, ...]) -> tuple[object, object]:
     """The actor's face and shapes, as the command line makes them."""
-    donor = part("bridge.background").finished(part("bridge.donors").actor_steps(sets))
+    donor = part("bridge.background").finished(part("bridge.cloning.donors").actor_steps(sets))
     return donor.face, donor.all_shapes
 
 

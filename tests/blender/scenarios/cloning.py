@@ -120,12 +120,12 @@ assert sorted(entry.name for entry in entries) == sorted(NAMES)
 report = json.loads(bpy.data.texts["Cloned Shapes"].as_string())
 rows = report["target"]["shapes"]
 assert [row["name"] for row in rows] == [entry.name for entry in entries]
-trouble = part("bridge.clone_report").trouble
+trouble = part("bridge.cloning.clone_report").trouble
 sums = [sum(trouble(row).values()) for row in rows]
 assert sums == sorted(sums, reverse=True), sums
 bad = {"name": "joy", "torn_edges": 3, "lip_gap_percent": 30.0, "source_lip_gap_percent": 28.0, "lid_gap_percent": None}
 assert trouble(bad) == {"torn_edges": 3, "lip_gap_percent": 2}
-assert part("bridge.clone_report").figures_note(bad) == "torn edges 3, lip gap +2 %"
+assert part("bridge.cloning.clone_report").figures_note(bad) == "torn edges 3, lip gap +2 %"
 
 # Existing keys are kept, replaced, or stand beside numbered ones.
 sculpted = key_shape(target, "joy") + np.float32(0.1)
@@ -166,7 +166,7 @@ assert made["joy_L"].value == made["joy_R"].value == keys["joy"].value
 
 # ARKit's names and wholes: of halves in another spelling.
 for name, old in (("browInnerUp_L", "joy"), ("browInnerUp_R", "anger"), ("Jaw_Open", "surprise")):
-    part("bridge.examples").write_example(source, name, key_shape(source, old))
+    part("bridge.examples.examples").write_example(source, name, key_shape(source, old))
 cloning.keep, cloning.sides, cloning.arkit_names = "browInnerUp*, Jaw*", "MERGE", True
 clone()
 assert [key.name for key in made][-2:] == ["browInnerUp", "jawOpen"], list(made)

@@ -33,7 +33,7 @@ bpy.ops.object.mode_set(mode="OBJECT")
 # Esc at every stage leaves the scene as it was.
 before = snapshot()
 for stop in (lambda share, what: True, lambda share, what: share > 0.3, lambda share, what: what == "Writing"):
-    steps = part("bridge.cloning").clone_steps(context)
+    steps = part("bridge.cloning.cloning").clone_steps(context)
     share, what = next((share, what) for share, what in steps if stop(share, what))
     steps.close()
     assert snapshot() == before, f"stopping at {share:.0%}, {what!r}, has changed the scene"
@@ -61,7 +61,7 @@ with refused("none of the 1", "feature points"):
     clone()
 bpy.data.objects["bare"].select_set(False)
 for name in ("2.1", "8.3", "8.4"):
-    part("bridge.points").add_point_at_vertex(bpy.data.objects["bare"], name, 4)
+    part("bridge.points.points").add_point_at_vertex(bpy.data.objects["bare"], name, 4)
 bpy.data.objects["bare"].select_set(True)
 target.select_set(True)
 with refused("bare: ", "points"):
@@ -94,7 +94,7 @@ target.shape_key_clear()
 # Objects.
 twin = bpy.data.objects.new("twin", target.data)
 context.scene.collection.objects.link(twin)
-part("bridge.points").write_points(twin, part("bridge.points").read_points(target))
+part("bridge.points.points").write_points(twin, part("bridge.points.points").read_points(target))
 for thing in bpy.data.objects:
     thing.select_set(thing in (target, twin))
 cloning.targets = "SELECTED"

@@ -72,7 +72,7 @@ assert all("browInnerUp" not in keys for keys in names[1:]), names
 assert sum(not keys for keys in names) == 3, names
 
 # What never moves and has no role is named; the upper teeth stay because they are upper teeth.
-steps = part("bridge.cloning").clone_steps(context)
+steps = part("bridge.cloning.cloning").clone_steps(context)
 said = [warning for warning in part("bridge.background").finished(steps).warnings if "role" in warning]
 assert len(said) == 1, said
 assert "'several part 3'" in said[0], said
@@ -109,7 +109,7 @@ others = [head(demo.warped_actor(np.random.default_rng(seed), 4_500), f"other {s
 for thing in bpy.data.objects:
     thing.select_set(thing.name not in ("one", "several", "whole"))
 cloning.targets, cloning.keep = "SELECTED", "jaw*, eyeBlink*"
-part("bridge.points").add_point_at_vertex(others[1].facial_retarget.parts[2].thing, "9.8", 3)
+part("bridge.points.points").add_point_at_vertex(others[1].facial_retarget.parts[2].thing, "9.8", 3)
 assert "9.8" in heads.read_head(others[1]).face.points.names
 assert bpy.ops.facial_retarget.clone_shapes() == {"FINISHED"}
 for thing in others:

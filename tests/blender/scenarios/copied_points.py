@@ -5,7 +5,7 @@ import numpy as np
 from stage import demo_object, empty_scene, grid, part, refused
 
 empty_scene()
-points, meshes = part("bridge.points"), part("bridge.meshes")
+points, meshes = part("bridge.points.points"), part("bridge.meshes")
 demo, sets = part("demo"), part("core.point_sets")
 actor = demo_object(demo.actor(2_000), "actor")
 built = demo.warped_actor(np.random.default_rng(1), 4_500)

@@ -5,7 +5,7 @@ import numpy as np
 from stage import empty_scene, grid, part, refused
 
 empty_scene()
-examples = part("bridge.examples")
+examples = part("bridge.examples.examples")
 task = bpy.context.scene.facial_retarget
 assert not bpy.ops.facial_retarget.create_examples.poll()
 task.source, task.target = grid("source"), grid("target", 8)

@@ -24,7 +24,7 @@ assert task.examples["surprise"].target_state == "SCULPTED"
 
 # What is sculpted is kept, unless the artist says otherwise; a whole list is filled around it.
 sculpted = key_shape(target, "surprise") + np.float32(0.01)
-part("bridge.examples").write_example(target, "surprise", sculpted)
+part("bridge.examples.examples").write_example(target, "surprise", sculpted)
 with refused("'target'", "surprise", "Replace"):
     rough_out(example="surprise", side="TARGET")
 rough_out(side="TARGET")
@@ -36,7 +36,7 @@ assert np.array_equal(key_shape(target, "surprise"), shapes["surprise"])
 # From the other face: only what it shows.
 with refused("'source'", "joy"):
     rough_out(example="joy", side="TARGET", way="CLONE", existing="REPLACE")
-part("bridge.examples").write_example(source, "joy", joy)
+part("bridge.examples.examples").write_example(source, "joy", joy)
 rough_out(example="joy", side="TARGET", way="CLONE", existing="REPLACE")
 cloned = key_shape(target, "joy") - key_shape(target, "Basis")
 assert 0.5 < np.abs(cloned).max() / np.abs(joy - basis).max() < 2

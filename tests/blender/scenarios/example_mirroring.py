@@ -21,7 +21,7 @@ for example, way in (
     ("fear", "RIGHT_TO_LEFT"),
     ("disgust", "BOTH"),
 ):
-    part("bridge.examples").write_example(task.source, example, rest + moved)
+    part("bridge.examples.examples").write_example(task.source, example, rest + moved)
     assert mirror(example=example, side="SOURCE", way=way) == {"FINISHED"}
     wanted = made.shape(((rest + moved) - rest).astype(np.float64), way)
     np.testing.assert_allclose(key_shape(task.source, example) - rest, wanted, atol=1e-4)
@@ -32,7 +32,7 @@ assert len(eyes) == 4
 left = max(eyes, key=lambda thing: part("bridge.meshes").read_positions(thing.data)[:, 0].mean())
 right = min(eyes, key=lambda thing: part("bridge.meshes").read_positions(thing.data)[:, 0].mean())
 still = part("bridge.meshes").read_positions(left.data)
-part("bridge.examples").write_example(left, "joy", still + np.float32([0, 0, 2]))
+part("bridge.examples.examples").write_example(left, "joy", still + np.float32([0, 0, 2]))
 mirror(example="joy", side="TARGET", way="FLIP")
 np.testing.assert_allclose(key_shape(left, "joy"), still, atol=1e-4)
 np.testing.assert_allclose(

@@ -5,7 +5,7 @@ import numpy as np
 from stage import empty_scene, grid, part, refused
 
 empty_scene()
-examples = part("bridge.examples")
+examples = part("bridge.examples.examples")
 task = bpy.context.scene.facial_retarget
 task.source, task.target = grid("source"), grid("target", 8)
 other = grid("other", 4)

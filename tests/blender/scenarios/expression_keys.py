@@ -5,14 +5,14 @@ import numpy as np
 from stage import actor_face, empty_scene, fitted, grid, part, refused
 
 empty_scene()
-examples, sets = part("bridge.examples"), part("core.mpeg4.sets").SETS
+examples, sets = part("bridge.examples.examples"), part("core.mpeg4.sets").SETS
 make_shapes = bpy.ops.facial_retarget.make_shapes
 
 # Without points the button is grey; without MPEG-4 names it says what it wants.
 plain = grid("plain")
 bpy.context.view_layer.objects.active = plain
 assert not make_shapes.poll()
-part("bridge.points").add_point_at_vertex(plain, "wart", 3)
+part("bridge.points.points").add_point_at_vertex(plain, "wart", 3)
 with refused("MPEG-4"):
     make_shapes()
 
@@ -42,7 +42,7 @@ for name, positions in shapes.items():
 
 # What the artist has sculpted is kept, or replaced if they say so.
 sculpted = shape("joy") + 0.1
-part("bridge.examples").write_example(actor, "joy", sculpted)
+part("bridge.examples.examples").write_example(actor, "joy", sculpted)
 make_shapes(sets={"expressions", "visemes"})
 assert np.array_equal(shape("joy"), sculpted)
 assert set(sets["visemes"]) < set(keys.keys())

@@ -14,7 +14,7 @@ from stage import actor_face, empty_scene, part, shown_frames
 folder = Path(sys.argv[1])
 empty_scene()
 context = bpy.context
-meshes, points, bake = part("bridge.meshes"), part("bridge.points"), part("bridge.bakes.frames")
+meshes, points, bake = part("bridge.meshes"), part("bridge.points.points"), part("bridge.bakes.frames")
 demo, settings = part("demo"), part("core.methods.settings")
 FIRST, COUNT = 3, 4
 

@@ -9,7 +9,7 @@ import numpy as np
 from stage import donor_pair, empty_scene, enable, grid, part, refused
 
 folder = Path(sys.argv[1])
-findings, heat, quality = part("bridge.findings"), part("bridge.heat"), part("core.quality")
+findings, heat, quality = part("bridge.reports.findings"), part("bridge.reports.heat"), part("core.quality")
 empty_scene()
 task = bpy.context.scene.facial_retarget
 task.target = face = grid("face", 8)

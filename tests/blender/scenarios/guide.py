@@ -98,8 +98,8 @@ task.examples.add().name = "joy"
 advised("Press Retarget", "RETARGET", "facial_retarget.retarget")
 assert done() == ["FACES", "POINTS"], "the example is not sculpted yet"
 for thing in (source, target):
-    part("bridge.examples").write_example(thing, "joy", part("bridge.meshes").read_positions(thing.data) * 1.1)
-part("bridge.geometry_watch").changed()
+    part("bridge.examples.examples").write_example(thing, "joy", part("bridge.meshes").read_positions(thing.data) * 1.1)
+part("bridge.points.geometry_watch").changed()
 assert done() == ["FACES", "POINTS", "EXAMPLES"]
 bpy.ops.object.mode_set(mode="SCULPT")
 advised("Go back to Object Mode", "RETARGET", "object.mode_set")

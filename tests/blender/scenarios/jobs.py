@@ -11,7 +11,7 @@ from stage import empty_scene, grid, part, refused, wave
 folder = Path(sys.argv[1])
 empty_scene()
 bake, examples, points, base_object = (
-    part(f"bridge.{name}") for name in ("bakes.frames", "examples", "points", "base_object")
+    part(f"bridge.{name}") for name in ("bakes.frames", "examples.examples", "points.points", "points.base_object")
 )
 jobs, core_points = part("files.job"), part("core.points")
 task = bpy.context.scene.facial_retarget

@@ -285,7 +285,7 @@ with refused("MPEG-4"):
 
 # Esc at every stage leaves everything as it was.
 context.view_layer.objects.active = actor
-motion_import, snapshot = part("bridge.motion_import"), sys.modules["stage"].snapshot
+motion_import, snapshot = part("bridge.motion.motion_import"), sys.modules["stage"].snapshot
 for way in ("CONTROLS", "POINTS", "FRAMES"):
     options = motion_import.ImportOptions(
         Path(paths[0]), way, 1, "EMPTY", "hold", "fill", None, None, set_rate=True, set_range=True

@@ -15,7 +15,7 @@ def textured(face: object, name: str) -> bpy.types.Object:
     """A built-in face as an object with points and UVs."""
     file = part("files.mesh_file").MeshFile(face.face.mesh, face.counts, face.corners, face.uvs[face.corners])
     made = part("bridge.meshes").new_face(name, file)
-    part("bridge.points").write_points(made, face.face.points)
+    part("bridge.points.points").write_points(made, face.face.points)
     return made
 
 

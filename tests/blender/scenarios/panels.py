@@ -92,7 +92,7 @@ for active in (None, task.source, task.target):
     bpy.context.view_layer.objects.active = active
     draw_all()
 task.target.facial_retarget.parts.add().thing = task.source
-points = part("bridge.points")
+points = part("bridge.points.points")
 points.skip_point(task.target, "11.1")
 points.remove_point(task.target, "2.1")
 points.write_proposals(task.target, points.read_points(task.source).subset(["2.1"]))

@@ -6,7 +6,7 @@ from mathutils import Matrix
 from stage import empty_scene, grid, part, refused
 
 empty_scene()
-points, places, core = part("bridge.points"), part("bridge.point_places"), part("core.points")
+points, places, core = part("bridge.points.points"), part("bridge.points.point_places"), part("core.points")
 thing = grid("face", 8)
 face = thing.facial_retarget
 bpy.context.view_layer.objects.active = thing

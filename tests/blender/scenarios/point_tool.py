@@ -6,7 +6,7 @@ from mathutils import Matrix
 from stage import actor_face, demo_object, empty_scene, grid, part, refused
 
 empty_scene()
-operators, places = bpy.ops.facial_retarget, part("bridge.point_places")
+operators, places = bpy.ops.facial_retarget, part("bridge.points.point_places")
 task = bpy.context.scene.facial_retarget
 
 
@@ -121,7 +121,7 @@ with refused(stored.turn, "not proposed"):
     operators.accept_hovered()
 
 # Esc puts everything back, bit by bit.
-memory = part("bridge.point_memory")
+memory = part("bridge.points.point_memory")
 kept = memory.remember_points(actor)
 operators.place_point(name="9.3", location=(0, 0, 0))
 operators.drop_point(name="2.1")
@@ -130,7 +130,7 @@ memory.put_back_points(actor, kept)
 assert memory.remember_points(actor) == kept
 
 # A predictor that is made beside is the one that is asked then; who mirrors before it is there waits for it.
-preparation, prediction = part("bridge.point_preparation"), part("bridge.point_prediction")
+preparation, prediction = part("bridge.points.point_preparation"), part("bridge.points.point_prediction")
 fresh = demo_object(part("demo").actor(3_000), "fresh")
 bpy.context.view_layer.objects.active = fresh
 bpy.context.view_layer.update()

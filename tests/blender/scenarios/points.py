@@ -11,7 +11,7 @@ from stage import empty_scene, enable, grid, part, refused
 
 empty_scene()
 folder = Path(sys.argv[1])
-points = part("bridge.points")
+points = part("bridge.points.points")
 face = grid("face")
 bpy.context.view_layer.objects.active = face
 

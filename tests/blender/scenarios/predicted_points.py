@@ -5,7 +5,7 @@ import numpy as np
 from stage import actor_face, empty_scene, part, refused
 
 empty_scene()
-points, prediction, sets = part("bridge.points"), part("bridge.point_prediction"), part("core.point_sets")
+points, prediction, sets = part("bridge.points.points"), part("bridge.points.point_prediction"), part("core.point_sets")
 operators = bpy.ops.facial_retarget
 thing = actor_face()
 face = thing.facial_retarget

@@ -14,7 +14,9 @@ HANDLERS = ("frame_change_post", "depsgraph_update_post", "save_pre", "save_post
 def handlers() -> int:
     """How many of the preview's handlers work."""
     return sum(
-        one.__module__.endswith("bridge.preview") for name in HANDLERS for one in getattr(bpy.app.handlers, name)
+        one.__module__.endswith("bridge.preview.preview")
+        for name in HANDLERS
+        for one in getattr(bpy.app.handlers, name)
     )
 
 
@@ -152,7 +154,7 @@ np.testing.assert_allclose(shown(target), wanted(7), atol=1e-5 * size)
 
 # Out of date: says so, and a refresh takes it in.
 state = part("preview_state").STATE
-check = part("bridge.preview").check_origin
+check = part("bridge.preview.preview").check_origin
 check()
 assert state.on
 assert not state.stale
@@ -261,5 +263,5 @@ bpy.ops.facial_retarget.start_preview()
 disable()
 assert target.data.shape_keys is None
 assert handlers() == 0
-assert not [one for one in bpy.app.handlers.undo_post if one.__module__.endswith("bridge.preview")]
+assert not [one for one in bpy.app.handlers.undo_post if one.__module__.endswith("bridge.preview.preview")]
 enable()

@@ -130,7 +130,7 @@ bpy.ops.mesh.delete(type="VERT")
 bpy.ops.object.mode_set(mode="OBJECT")
 scene.frame_set(FIRST + 2)
 assert "vertices" in state.trouble
-part("bridge.preview").check_origin()
+part("bridge.preview.preview").check_origin()
 assert "meshes" in state.stale
 bpy.ops.facial_retarget.stop_preview()
 assert len(target.data.shape_keys.key_blocks) == COUNT + 1

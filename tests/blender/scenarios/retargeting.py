@@ -14,7 +14,9 @@ from stage import empty_scene, part, shown, snapshot
 folder = Path(sys.argv[1])
 empty_scene()
 context = bpy.context
-meshes, points, examples, bake = (part(f"bridge.{name}") for name in ("meshes", "points", "examples", "bakes.frames"))
+meshes, points, examples, bake = (
+    part(f"bridge.{name}") for name in ("meshes", "points.points", "examples.examples", "bakes.frames")
+)
 retargeting, background = part("bridge.retargeting"), part("bridge.background")
 demo = part("demo")
 

@@ -60,7 +60,7 @@ def actor_face(vertices: int = 1_500) -> bpy.types.Object:
     actor = part("demo").actor(vertices)
     file = part("files.mesh_file").MeshFile(actor.face.mesh, actor.counts, actor.corners)
     made = part("bridge.meshes").new_face("actor", file)
-    part("bridge.points").write_points(made, actor.face.points)
+    part("bridge.points.points").write_points(made, actor.face.points)
     bpy.context.view_layer.objects.active = made
     return made
 
@@ -72,7 +72,7 @@ def donor_pair(vertices: int = 4_500) -> tuple[bpy.types.Object, bpy.types.Objec
     pair = demo_object(actor, "source"), demo_object(warped, "target")
     for name, positions in actor.face.examples.items():
         if name != "neutral":
-            part("bridge.examples").write_example(pair[0], name, positions)
+            part("bridge.examples.examples").write_example(pair[0], name, positions)
     return pair
 
 
@@ -88,7 +88,7 @@ def demo_object(face: object, name: str, pieces: bool = False) -> bpy.types.Obje
         polygons = own[corners[np.cumsum(counts) - counts]]
         kept = np.repeat(polygons, counts)
         made.append(part("bridge.meshes").new_object(name, vertices[own], counts[polygons], index[corners[kept]]))
-    part("bridge.points").write_points(made[0], face.face.points)
+    part("bridge.points.points").write_points(made[0], face.face.points)
     for thing in made[1:]:
         made[0].facial_retarget.parts.add().thing = thing
     return made[0]
@@ -103,7 +103,7 @@ def key_shape(thing: bpy.types.Object, name: str) -> np.ndarray:
 
 def fitted(thing: bpy.types.Object) -> object:
     """An object as core's FapFace."""
-    return part("bridge.background").finished(part("bridge.fap_faces").fit_steps(thing))
+    return part("bridge.background").finished(part("bridge.motion.fap_faces").fit_steps(thing))
 
 
 def wave(thing: bpy.types.Object, count: int) -> np.ndarray:

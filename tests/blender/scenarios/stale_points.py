@@ -9,7 +9,7 @@ import numpy as np
 from stage import empty_scene, enable, grid, part, refused
 
 folder = Path(sys.argv[1])
-points, anchors, core = part("bridge.points"), part("bridge.point_anchors"), part("core.points")
+points, anchors, core = part("bridge.points.points"), part("bridge.points.point_anchors"), part("core.points")
 SIDE = 9
 VERTICES = (12, 30, 40, 50, 68)
 EDGE = 0.25
@@ -91,7 +91,7 @@ for work, selected in (
     assert points.settled_points(thing).moved == {}, points.settled_points(thing).moved
     assert bpy.ops.facial_retarget.refresh_points() == {"FINISHED"}
     same(places(thing), before)
-    topology = part("bridge.topology").topology_of(thing.data)
+    topology = part("bridge.points.topology").topology_of(thing.data)
     assert all(point.topology == topology for point in thing.facial_retarget.points)
     assert len({tuple(point.vertices) for point in thing.facial_retarget.points}) == len(before)
     on_vertex = [point for point in thing.facial_retarget.points if point.name != "amid"]
@@ -272,7 +272,7 @@ same(places(thing), before)
 # What Esc puts back holds to the surface as before.
 thing = new_face()
 before = places(thing)
-memory = part("bridge.point_memory")
+memory = part("bridge.points.point_memory")
 kept = memory.remember_points(thing)
 points.place_point(thing, "at 40", [1, 1, 1], [1.0, 0.0, 0.0])
 memory.put_back_points(thing, kept)

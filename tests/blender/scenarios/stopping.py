@@ -17,7 +17,7 @@ context, demo = bpy.context, part("demo")
 actor, warped = demo.actor(4_500), demo.warped_actor(np.random.default_rng(1), 4_500)
 source, target = demo_object(actor, "source"), demo_object(warped, "target", pieces=True)
 task = context.scene.facial_retarget
-part("bridge.points").write_points(
+part("bridge.points.points").write_points(
     demo_object(actor, "bare"), actor.face.points.subset(["9.3", "2.1", "3.7", "3.12", "4.1"])
 )
 task.source, task.target = source, target
@@ -25,7 +25,7 @@ task.method, task.use_scene_range, task.frame_start, task.frame_end = "motion_cl
 task.cloning.existing = "REPLACE"
 bpy.ops.facial_retarget.create_examples()
 for name in ("joy", "fear"):
-    part("bridge.examples").write_example(source, name, actor.face.examples[name])
+    part("bridge.examples.examples").write_example(source, name, actor.face.examples[name])
     bpy.ops.facial_retarget.rough_out(example=name, side="TARGET")
 for frame, value in ((1, 0.0), (5, 1.0)):
     source.data.shape_keys.key_blocks["joy"].value = value
@@ -56,7 +56,9 @@ def files() -> dict[str, object]:
 
 def take_in(way: str) -> tuple[object, ...]:
     """Arguments for the steps that import the take."""
-    options = part("bridge.motion_import").ImportOptions(take, way, 1, "EMPTY", "hold", "fill", None, None, True, True)
+    options = part("bridge.motion.motion_import").ImportOptions(
+        take, way, 1, "EMPTY", "hold", "fill", None, None, True, True
+    )
     return context, "@target", options
 
 
@@ -64,24 +66,32 @@ BAKES = ("frames", "compact", "rig", "pc2")
 WORKS = {
     **{f"bake {kind}": ("retargeting", "retarget_steps", context) for kind in BAKES},
     "show levels": ("retargeting", "level_steps", context),
-    "clone": ("cloning", "clone_steps", context),
-    "re-solve": ("resolving", "resolve_steps", context),
-    "make shapes": ("expression_keys", "make_shapes_steps", "@target", {"arkit", "expressions"}, True),
-    "make controls": ("controls", "make_controls_steps", "@target"),
-    "import as controls": ("motion_import", "import_motion_steps", *take_in("CONTROLS")),
-    "import as points": ("motion_import", "import_motion_steps", *take_in("POINTS")),
-    "import as frames": ("motion_import", "import_motion_steps", *take_in("FRAMES")),
-    "rough out": ("example_making", "rough_out_steps", context, ["joy", "fear"], "TARGET", "POINTS", True),
-    "clone an example": ("example_making", "rough_out_steps", context, ["joy"], "TARGET", "CLONE", True),
-    "mirror": ("example_making", "mirror_steps", context, ["joy"], "SOURCE", "FLIP"),
-    "check examples": ("example_checking", "check_steps", context),
-    "add the actor": ("donors", "add_actor_steps", context, {"expressions"}),
-    "add the pair": ("demo_pair", "add_pair_steps", context, "child", True),
-    "copy points": ("point_copies", "copy_steps", "@source", ["@bare"]),
-    "export": ("motion_export", "export_motion_steps", context, "@source", folder / "out.fap", range(1, 6), "MESH"),
+    "clone": ("cloning.cloning", "clone_steps", context),
+    "re-solve": ("cloning.resolving", "resolve_steps", context),
+    "make shapes": ("motion.expression_keys", "make_shapes_steps", "@target", {"arkit", "expressions"}, True),
+    "make controls": ("motion.controls", "make_controls_steps", "@target"),
+    "import as controls": ("motion.motion_import", "import_motion_steps", *take_in("CONTROLS")),
+    "import as points": ("motion.motion_import", "import_motion_steps", *take_in("POINTS")),
+    "import as frames": ("motion.motion_import", "import_motion_steps", *take_in("FRAMES")),
+    "rough out": ("examples.example_making", "rough_out_steps", context, ["joy", "fear"], "TARGET", "POINTS", True),
+    "clone an example": ("examples.example_making", "rough_out_steps", context, ["joy"], "TARGET", "CLONE", True),
+    "mirror": ("examples.example_making", "mirror_steps", context, ["joy"], "SOURCE", "FLIP"),
+    "check examples": ("examples.example_checking", "check_steps", context),
+    "add the actor": ("cloning.donors", "add_actor_steps", context, {"expressions"}),
+    "add the pair": ("scene.demo_pair", "add_pair_steps", context, "child", True),
+    "copy points": ("points.point_copies", "copy_steps", "@source", ["@bare"]),
+    "export": (
+        "motion.motion_export",
+        "export_motion_steps",
+        context,
+        "@source",
+        folder / "out.fap",
+        range(1, 6),
+        "MESH",
+    ),
     "save a job": ("job", "save_job_steps", context, folder / "job.toml"),
     "load a job": ("job", "load_job_steps", context, folder / "job.toml", "Z"),
-    "preview": ("preview", "preview_steps", context),
+    "preview": ("preview.preview", "preview_steps", context),
 }
 
 
@@ -118,7 +128,7 @@ for name, work in WORKS.items():
     context.view_layer.update()
     assert differences(before | lying, everything() | files()), f"{name} has changed nothing"
     if name == "preview":  # it writes a key that no file holds, and takes it away by itself
-        part("bridge.preview").stop_preview()
+        part("bridge.preview.preview").stop_preview()
     bpy.ops.ed.undo_push(message="after")
     if name == "clone":  # the next work needs it, and a correction
         corrected = bpy.data.objects["target"].data.shape_keys.key_blocks["joy"]

@@ -37,8 +37,8 @@ def scenario():
     scene = bpy.context.scene
     scene.frame_start, scene.frame_end = 30, 41
     scene.frame_set(30)
-    actor = part("demo").actor(part("bridge.demo_pair").ACTOR_VERTICES)
-    part("bridge.examples").write_example(source(), "surprise", actor.face.examples["surprise"])
+    actor = part("demo").actor(part("bridge.scene.demo_pair").ACTOR_VERTICES)
+    part("bridge.examples.examples").write_example(source(), "surprise", actor.face.examples["surprise"])
     source().active_shape_key_index = len(source().data.shape_keys.key_blocks) - 1
     remember()
     rest = shown(target())

@@ -41,7 +41,7 @@ def are_marked(shown: np.ndarray, places: list[np.ndarray], colour: np.ndarray) 
 
 def scenario():
     clear()
-    demo, points = part("demo"), part("bridge.points")
+    demo, points = part("demo"), part("bridge.points.points")
     actor = add_face(demo.actor(4_000), "Actor", -1.3)
     ape = add_face(demo.targets()[0], "Ape", 1.3)
     task = bpy.context.scene.facial_retarget

@@ -22,7 +22,9 @@ def actor():
 
 def pixels(name, editor=None):
     """(2,) pixels where a stored point is seen."""
-    names, places = stage.part("bridge.point_places").world_places(actor(), bpy.context.evaluated_depsgraph_get())
+    names, places = stage.part("bridge.points.point_places").world_places(
+        actor(), bpy.context.evaluated_depsgraph_get()
+    )
     return np.array(drive.on_screen(places[names.index(name)], editor))
 
 
@@ -39,7 +41,7 @@ def scenario():
     yield from drive.look("FRONT")
     yield from choose_tool()
 
-    preparing = stage.part("bridge.point_preparation").is_preparing
+    preparing = stage.part("bridge.points.point_preparation").is_preparing
     yield from drive.wait(20)
     yield from drive.wait_until(lambda: not preparing(actor()), "the predictor is made")
 

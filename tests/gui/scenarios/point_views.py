@@ -25,7 +25,7 @@ def windows():
 
 def pixel(name, region, view):
     """(2,) pixels of the window where a view shows a stored point."""
-    names, places = stage.part("bridge.point_places").world_places(face(), bpy.context.evaluated_depsgraph_get())
+    names, places = stage.part("bridge.points.point_places").world_places(face(), bpy.context.evaluated_depsgraph_get())
     return np.array(location_3d_to_region_2d(region, view, places[names.index(name)])) + [region.x, region.y]
 
 
@@ -38,7 +38,7 @@ def spot(region, view, offset):
 
 def depth_off(name, region, view):
     """How far from the place, where Blender itself finds the surface behind its pixel, a point lies."""
-    names, places = stage.part("bridge.point_places").world_places(face(), bpy.context.evaluated_depsgraph_get())
+    names, places = stage.part("bridge.points.point_places").world_places(face(), bpy.context.evaluated_depsgraph_get())
     at = pixel(name, region, view) - [region.x, region.y]
     to_own = face().matrix_world.inverted()
     origin = to_own @ region_2d_to_origin_3d(region, view, at)

@@ -21,7 +21,7 @@ from stage import add_face, clear, part, remember
 def scenario():
     clear()
     thing = add_face(part("demo").actor(3_000), "Actor", points=False)
-    part("bridge.points").skip_point(thing, "11.1")
+    part("bridge.points.points").skip_point(thing, "11.1")
     remember()
     yield from look("FRONT", [thing])
     yield from open_tab()
@@ -46,8 +46,8 @@ def scenario():
 
     # A point on the wrong side is doubtful until its half is mirrored from the other one.
     left = face().points["8.3"]
-    part("bridge.points").place_point(bpy.data.objects["Actor"], "8.4", left.vertices, left.weights)
-    part("bridge.point_prediction").update_predictions(bpy.data.objects["Actor"])
+    part("bridge.points.points").place_point(bpy.data.objects["Actor"], "8.4", left.vertices, left.weights)
+    part("bridge.points.point_prediction").update_predictions(bpy.data.objects["Actor"])
     remember()
     yield from show("PLACED")
     screenshot("doubtful")

@@ -48,7 +48,7 @@ def pink(shown: np.ndarray) -> int:
 
 def scenario():
     clear()
-    demo, quality, findings = part("demo"), part("core.quality"), part("bridge.findings")
+    demo, quality, findings = part("demo"), part("core.quality"), part("bridge.reports.findings")
     built = demo.actor(4_000)
     source, target = add_face(built, "Source", -1.3), add_face(built, "Target", 1.3)
     task, scene = bpy.context.scene.facial_retarget, bpy.context.scene

@@ -84,7 +84,7 @@ def place_points(place: int, face: bpy.types.Object):
 def true_places(face: bpy.types.Object) -> dict[str, np.ndarray]:
     """Where the built-in face's own points lie in the scene: what an artist sees at a glance."""
     demo = part("demo")
-    built = demo.actor(part("bridge.demo_pair").ACTOR_VERTICES) if face.name == "Actor" else demo.child()
+    built = demo.actor(part("bridge.scene.demo_pair").ACTOR_VERTICES) if face.name == "Actor" else demo.child()
     world = np.array(face.matrix_world)
     own = built.face.points.positions(built.face.mesh.vertices)
     return dict(zip(built.face.points.names, own @ world[:3, :3].T + world[:3, 3], strict=True))

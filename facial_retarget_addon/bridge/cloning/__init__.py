@@ -1,0 +1,1 @@
+"""Shape keys of one head onto others, with all that hangs on them."""

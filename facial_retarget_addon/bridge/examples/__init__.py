@@ -1,0 +1,1 @@
+"""Example expressions: made, sculpted, mirrored, checked."""

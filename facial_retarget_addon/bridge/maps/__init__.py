@@ -1,0 +1,1 @@
+"""Normal maps: made, written, shown by materials."""

@@ -1,0 +1,1 @@
+"""MPEG-4 motion in and out: controls, shapes, curves."""

@@ -1,0 +1,1 @@
+"""The live preview, and the shape key that carries it."""

@@ -1,0 +1,1 @@
+"""What was found in a result, and where it shows."""
