@@ -2,7 +2,7 @@
 
 from . import operators, panels
 from .facial_retarget_addon import manual, preview_watch, properties, translations, viewport
-from .facial_retarget_addon.bridge import geometry_watch
+from .facial_retarget_addon.bridge.points import geometry_watch
 
 PARTS = (properties, geometry_watch, preview_watch, operators, viewport, panels, manual, translations)
 

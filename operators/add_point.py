@@ -33,7 +33,7 @@ class FACIAL_RETARGET_OT_add_point(OnFace, Operator):
     @tells_user
     def execute(self, context: Context) -> set[str]:
         """Add the point."""
-        from ..facial_retarget_addon.bridge import points
+        from ..facial_retarget_addon.bridge.points import points
         from ..facial_retarget_addon.bridge.points.point_prediction import update_predictions
 
         thing = context.active_object
