@@ -97,8 +97,7 @@ for ends_first in (True, False):
         sleep(0.2)
     steps.close()
     go.set()
-    for thread in list(background._lingering):
-        thread.join(60)
+    background._lingering[-1].join(60)
     assert made == ["late"], made
 made.clear()
 work = Work()
