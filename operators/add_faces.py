@@ -42,4 +42,4 @@ class FACIAL_RETARGET_OT_add_faces(InSteps, Operator):
     def finish(self, result: Any) -> None:
         """Name them."""
         source, target = result
-        self.report({"INFO"}, f"{source.name!r} acts, {target.name!r} shall")
+        self.report({"INFO"}, f"Added {source.name!r}, who acts, and {target.name!r}, the target")
