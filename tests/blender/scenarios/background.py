@@ -3,6 +3,7 @@
 from threading import Event
 from time import sleep
 
+import bpy
 from stage import enable, part
 
 enable()
@@ -72,7 +73,6 @@ except IndexError:
 else:
     raise AssertionError("the error was lost")
 
-# `second` still hangs: Python must end nevertheless.
 assert not second.go.is_set()
 
 # What was made and is not taken is discarded, whether the work has ended before the steps are closed or after.
@@ -89,8 +89,8 @@ for ends_first in (True, False):
         return "late"
 
     steps = background.in_thread(late, made.append)
-    next(steps)
-    assert said.wait(60)
+    while not said.is_set():  # at first it may wait for a thread that is about to end
+        next(steps)
     if ends_first:
         go.set()
         assert over.wait(60)
@@ -104,3 +104,10 @@ work = Work()
 work.go.set()
 assert background.finished(background.in_thread(work, made.append)) == "made"
 assert made == []
+
+# `second` still hangs: Python must end nevertheless. As a module, Blender 4.5 tidies up only once no thread of Python's
+# is left, and waits for itself at the end if it could not; Blender itself, and newer modules, end.
+if bpy.app.version < (5, 0):
+    second.go.set()
+    for thread in list(background._lingering):
+        thread.join(60)
