@@ -6,15 +6,13 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import bpy
-import numpy as np
 from bpy.types import Object
 
 from ...core.arrays import FloatArray
 from ...files.frames import add_frames
 from ...files.whole import Aside
 from ..heads import Head
-from ..meshes import from_face_space
-from .frames import moved_objects, remove_bake
+from .frames import moved_objects, own_positions, remove_bake, time_step
 
 MODIFIER = "Facial Retarget"
 
@@ -28,17 +26,13 @@ def cache_paths(head: Head, path: Path, frames: FloatArray) -> dict[Object, Path
 
 def add_caches(aside: Aside, head: Head, paths: dict[Object, Path], frames: FloatArray) -> None:
     """Write the caches of a head's frames, in each object's own coordinates."""
-    face = head.things[0]
     for thing, own, _ in head.slices():
         if thing in paths:
-            moves = frames[:, own] - head.face.mesh.vertices[own].astype(np.float32)
-            places = from_face_space(face, frames[:, own]) if thing == face else head.positions(thing, moves)
-            add_frames(aside, places, paths[thing], None)
+            add_frames(aside, own_positions(head, thing, frames[:, own]), paths[thing], None)
 
 
 def play_caches(paths: dict[Object, Path], times: Sequence[float]) -> None:
     """Let each object play its cache from the first scene frame on; shape keys of an earlier bake are removed."""
-    step = times[1] - times[0] if len(times) > 1 else 1
     for thing, path in paths.items():
         remove_bake(thing)
         modifier = thing.modifiers.get(MODIFIER) or thing.modifiers.new(MODIFIER, "MESH_CACHE")
@@ -48,7 +42,7 @@ def play_caches(paths: dict[Object, Path], times: Sequence[float]) -> None:
         modifier.interpolation = "LINEAR"
         modifier.forward_axis, modifier.up_axis = "POS_Y", "POS_Z"
         modifier.time_mode, modifier.play_mode = "FRAME", "SCENE"
-        modifier.frame_start, modifier.frame_scale = times[0], 1 / step
+        modifier.frame_start, modifier.frame_scale = times[0], 1 / time_step(times)
 
 
 def stop_caches(things: Sequence[Object]) -> None:

@@ -58,26 +58,41 @@ def write_head_frames(
     ------
     RetargetError : for a bad pattern; if an object has shape keys of its own, which absolute ones would turn off.
     """
-    check_frames(head, frames, times, pattern, absolute)
+    moved = check_frames(head, frames, times, pattern, absolute)
     face, action = head.things[0], None
-    moved = moved_objects(head, frames)
     for thing in head.things:
         if thing not in moved:
             remove_bake(thing)
     for thing, own in moved.items():
-        moves = frames[:, own] - head.face.mesh.vertices[own].astype(np.float32)
-        places = from_face_space(face, frames[:, own]) if thing == face else head.positions(thing, moves)
-        _write_own(thing, places, times, pattern, absolute, action)
+        _write_own(thing, own_positions(head, thing, frames[:, own]), times, pattern, absolute, action)
         action = face.data.shape_keys.animation_data.action
 
 
-def check_frames(head: Head, frames: FloatArray, times: Sequence[float], pattern: str, absolute: bool) -> None:
-    """RetargetError if `write_head_frames` would refuse."""
+def check_frames(
+    head: Head, frames: FloatArray, times: Sequence[float], pattern: str, absolute: bool
+) -> dict[Object, slice]:
+    """RetargetError if `write_head_frames` would refuse; else what `moved_objects` finds."""
     _check_count(head.things[0], frames[:, : head.starts[1]])
-    for thing in moved_objects(head, frames):
+    moved = moved_objects(head, frames)
+    for thing in moved:
         _check_own_keys(thing, absolute)
     for time in (times[0], times[-1]):
         frame_key_name(pattern, time)
+    return moved
+
+
+def own_positions(head: Head, thing: Object, frames: FloatArray) -> FloatArray:
+    """(F, v, 3) in own coordinates: an object whose vertices stand at frames (F, v, 3) of the head."""
+    row = head.things.index(thing)
+    if row == 0:
+        return from_face_space(thing, frames)
+    rest = head.face.mesh.vertices[head.starts[row] : head.starts[row + 1]]
+    return head.positions(thing, frames - rest.astype(np.float32))
+
+
+def time_step(times: Sequence[float]) -> float:
+    """Scene frames from one of some equally spaced times to the next; 1 for a single one."""
+    return times[1] - times[0] if len(times) > 1 else 1
 
 
 def moved_objects(head: Head, frames: FloatArray) -> dict[Object, slice]:
@@ -130,7 +145,7 @@ def _write_own(
         moments = [keys.key_blocks[name].frame for name in names]
         write_curve(bag, "eval_time", np.array(times, float), np.array(moments))
     else:
-        step = times[1] - times[0] if len(times) > 1 else 1
+        step = time_step(times)
         for time, name in zip(times, names, strict=True):
             # On at its own frame, off at the two beside it.
             write_curve(bag, value_path(name), np.array([time - step, time, time + step]), np.array([0, 1, 0]))

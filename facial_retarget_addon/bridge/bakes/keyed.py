@@ -14,11 +14,8 @@ from ...core.reduction.keyed import KeyedMotion
 from ..curves import ensure_curves, remove_curves, write_curve
 from ..heads import Head
 from ..shape_keys import ensure_key, find_key, value_path, write_key
-from .frames import remove_bake
+from .frames import STILL, remove_bake
 from .names import baked_keys, record_bake
-
-STILL = 1e-6
-"""Motion of an object below this share of the head's size is none."""
 
 
 class RigKeys(NamedTuple):

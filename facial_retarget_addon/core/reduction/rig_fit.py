@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..arrays import FloatArray, Progress, no_progress
+from ..arrays import FloatArray, IntArray, Progress, no_progress
 from ..errors import RetargetError
 from .keyed import BLOCK, KeyedMotion, measured
 
@@ -60,9 +60,8 @@ def fit_to_keys(
         wanted[first : first + BLOCK] = block.reshape(len(block), -1) @ flat.T
     progress(0.2, "fitting the curves")
     curves = _bounded(gram + _RIDGE * size * np.eye(len(gram)), wanted, smoothness * size, low, high, progress)
-    moved = np.abs(shapes).max(axis=(0, 2)) + np.max([np.abs(frame).max(axis=1) for frame in displacements], axis=0)
     progress(1.0, "done")
-    return measured(shapes.astype(np.float32), curves.astype(np.float32), displacements, np.flatnonzero(moved))
+    return measured(shapes.astype(np.float32), curves.astype(np.float32), displacements, _moving(shapes, displacements))
 
 
 def residual_keys(displacements: FloatArray, keyed: KeyedMotion, ranges: Sequence[slice]) -> KeyedMotion:
@@ -84,8 +83,13 @@ def residual_keys(displacements: FloatArray, keyed: KeyedMotion, ranges: Sequenc
         shapes.append((shape * extreme).reshape(1, -1, 3).astype(np.float32))
         curves.append(whole)
     every, values = np.concatenate(shapes), np.concatenate(curves, axis=1)
-    moved = np.abs(every).max(axis=(0, 2)) + np.max([np.abs(frame).max(axis=1) for frame in displacements], axis=0)
-    return measured(every, values, displacements, np.flatnonzero(moved))
+    return measured(every, values, displacements, _moving(every, displacements))
+
+
+def _moving(shapes: FloatArray, displacements: FloatArray) -> IntArray:
+    """(M,) vertices that a shape (K, V, 3) or a frame (F, V, 3) moves."""
+    moved = np.abs(shapes).max(axis=(0, 2)) + np.max([np.abs(frame).max(axis=1) for frame in displacements], axis=0)
+    return np.flatnonzero(moved)
 
 
 def _bounded(
