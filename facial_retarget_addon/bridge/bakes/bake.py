@@ -6,12 +6,10 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import bpy
 import numpy as np
 from bpy.types import PropertyGroup
 
 from ...core.arrays import FloatArray, Progress
-from ...core.errors import RetargetError
 from ...core.face_regions import REGIONS, region_weights
 from ...core.methods.settings import BakeSettings
 from ...core.mpeg4.head import gives_axes, head_axes
@@ -22,6 +20,7 @@ from ...core.reduction.rig_fit import fit_to_keys, residual_keys
 from ...files.whole import Aside
 from ..background import Steps, in_thread
 from ..heads import Head
+from ..paths import chosen_path
 from ..settings import read_group
 from .cache import add_caches, cache_paths, play_caches, stop_caches
 from .frames import check_frames, write_head_frames
@@ -43,13 +42,9 @@ class Wish(NamedTuple):
 
         Raises
         ------
-        RetargetError : if none is named, or it lies beside a .blend that is not saved yet.
+        RetargetError : as `chosen_path`.
         """
-        if not self.cache:
-            raise RetargetError("no file is chosen for the cache, expected one under Bake and Export")
-        if self.cache.startswith("//") and not bpy.data.filepath:
-            raise RetargetError(f"cache {self.cache!r} lies beside the .blend, which is not saved yet")
-        return Path(bpy.path.abspath(self.cache)).absolute().with_suffix(f".{self.settings.kind}")
+        return chosen_path(self.cache, "file", "cache", "Bake and Export").with_suffix(f".{self.settings.kind}")
 
 
 def read_wish(task: PropertyGroup) -> Wish:

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import bpy
 from bpy.types import PropertyGroup
 
-from ...core.errors import RetargetError
 from ...core.methods.settings import LEVELED, MapSettings
 from ...files.job import MapOutput
+from ..paths import chosen_path
 
 
 def map_settings(wish: PropertyGroup) -> MapSettings:
@@ -23,15 +22,9 @@ def map_folder(wish: PropertyGroup) -> Path:
 
     Raises
     ------
-    RetargetError : if none is named, or it lies beside a .blend that is not saved yet.
+    RetargetError : as `chosen_path`.
     """
-    if not wish.folder:
-        raise RetargetError("no folder is chosen for the normal maps, expected one under Normal Maps")
-    if wish.folder.startswith("//") and not bpy.data.filepath:
-        raise RetargetError(
-            f"folder {wish.folder!r} lies beside the .blend, which is not saved yet; save it, or name another"
-        )
-    return Path(bpy.path.abspath(wish.folder)).absolute()
+    return chosen_path(wish.folder, "folder", "normal maps", "Normal Maps")
 
 
 def map_output(task: PropertyGroup) -> MapOutput | None:
