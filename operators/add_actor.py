@@ -5,7 +5,7 @@ from typing import Any
 from bpy.props import EnumProperty
 from bpy.types import Context, Operator
 
-from ..facial_retarget_addon.properties import ACTOR_SETS
+from ..facial_retarget_addon.properties.cloning import ACTOR_SETS
 from .in_steps import InSteps
 from .polls import in_mode
 

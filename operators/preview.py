@@ -6,7 +6,7 @@ from bpy.props import EnumProperty
 from bpy.types import Context, Operator
 
 from ..facial_retarget_addon.preview_state import STATE
-from ..facial_retarget_addon.properties import METHOD_ITEMS
+from ..facial_retarget_addon.properties.methods import METHOD_ITEMS
 from .in_steps import InSteps
 from .polls import OnTask
 

@@ -6,7 +6,7 @@ from bpy.props import EnumProperty, StringProperty
 from bpy.types import Context, Operator
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
-from ..facial_retarget_addon.properties import EXISTING_KEYS
+from ..facial_retarget_addon.properties.cloning import EXISTING_KEYS
 from .errors import tells_user
 from .polls import OnFace
 
