@@ -3,31 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 from bpy.types import Object
 
-from ...core.arrays import FloatArray
 from ...core.errors import RetargetError
-from ...core.reduction.keyed import KeyedMotion
+from ...core.reduction.bake_keys import BakedKeys, RigKeys
 from ..curves import ensure_curves, remove_curves, write_curve
 from ..heads import Head
 from ..shape_keys import ensure_key, find_key, value_path, write_key
 from .frames import STILL, remove_bake
 from .names import baked_keys, record_bake
-
-
-class RigKeys(NamedTuple):
-    """The shape keys of a head that frames can be fitted to.
-
-    names : (K,). shapes : (K, V, 3) float32 displacements at 1, in the head's coordinates. low, high : (K,) ranges.
-    """
-
-    names: tuple[str, ...]
-    shapes: FloatArray
-    low: FloatArray
-    high: FloatArray
 
 
 def rig_keys(head: Head) -> RigKeys:
@@ -54,14 +40,14 @@ def rig_keys(head: Head) -> RigKeys:
     return RigKeys(kept, shapes[moving], low, high)
 
 
-def write_keyed(head: Head, names: Sequence[str], keyed: KeyedMotion, times: Sequence[float], made: int) -> None:
-    """Let a head play a motion of shape keys; an earlier bake is removed.
+def write_keyed(head: Head, baked: BakedKeys, times: Sequence[float]) -> None:
+    """Let a head play a motion of shape keys, new ones made on each object that they move; an earlier bake is removed.
 
     Parameters
     ----------
-    names : (K,) of the keys.
-    made : the last so many of them are new keys, made on each object that they move; the others are there.
+    times : (F,) scene frames.
     """
+    names, keyed, made = baked
     for thing in head.things:
         remove_bake(thing)
     first_new = len(names) - made
