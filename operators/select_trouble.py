@@ -20,6 +20,8 @@ class FACIAL_RETARGET_OT_select_trouble(Operator):
         items=[
             ("TORN", "Torn Edges", "Vertices of the torn edges"),
             ("TURNED", "Turned Triangles", "Vertices of the triangles that are turned over"),
+            ("LIPS", "Lips", "Edges of the lips, where they are open wider than the source's"),
+            ("LIDS", "Lids", "Edges of the lids, where they are open wider than the source's"),
         ],
         description="Which of the vertices",
     )

@@ -9,8 +9,13 @@ ICONS = {"FRAME": "KEYFRAME", "KEY": "SHAPEKEY_DATA"}
 """Kind of a finding -> its icon."""
 
 
-COLUMNS = (("Torn", "torn"), ("Turn", "turned"), ("Lip", "lip_gap"), ("Lid", "lid_gap"))
-"""Heading of a column -> the figure that stands in it."""
+COLUMNS = (
+    ("Torn", "TORN", "torn"),
+    ("Turn", "TURNED", "turned"),
+    ("Lip", "LIPS", "lip_gap"),
+    ("Lid", "LIDS", "lid_gap"),
+)
+"""Heading of a column, the kind of trouble that it tells of, and the figure that stands in it."""
 NAMES = 0.34
 """Share of a row that the name takes."""
 
@@ -25,7 +30,7 @@ class FACIAL_RETARGET_UL_findings(UIList):
         row = layout.split(factor=NAMES)
         row.label(text=item.name, icon=ICONS[item.kind], translate=False)
         figures = row.row()
-        for _, name in COLUMNS:
+        for *_, name in COLUMNS:
             value = round(getattr(item, name))
             figures.label(text=str(value) if value else "", translate=False)
 
@@ -64,9 +69,11 @@ class FACIAL_RETARGET_PT_report(Step, Panel):
         headings = layout.split(factor=NAMES)
         headings.label(text="Worst")
         row = headings.row()
-        for heading, _ in COLUMNS:
+        for heading, *_ in COLUMNS:
             row.label(text=heading)
         layout.template_list("FACIAL_RETARGET_UL_findings", "", face, "findings", face, "active_finding", rows=5)
-        row = layout.row(align=True)
-        row.operator("facial_retarget.select_trouble", text="Select Torn").kind = "TORN"
-        row.operator("facial_retarget.select_trouble", text="Select Turned").kind = "TURNED"
+        row = layout.split(factor=NAMES)
+        row.label(text="Select")
+        row = row.row(align=True)
+        for heading, kind, _ in COLUMNS:
+            row.operator("facial_retarget.select_trouble", text=heading).kind = kind

@@ -11,14 +11,18 @@ import numpy as np
 from .arrays import FloatArray, IntArray
 from .defects import Defects
 from .mesh import TriMesh
-from .seams.gaps import SeamGaps
+from .seams.gaps import Gaping, SeamGaps
 
 
 class Spots(NamedTuple):
-    """Where a frame is in trouble: the vertices (n,) of its torn edges, and those of its turned triangles."""
+    """Where a frame is in trouble: the vertices (n,) of its torn edges, those of its turned triangles, and those of
+    lips and of lids where they gape wider than the source's.
+    """
 
     torn: IntArray
     turned: IntArray
+    lips: IntArray
+    lids: IntArray
 
 
 @dataclass(eq=False)
@@ -46,13 +50,14 @@ class Quality:
     def add(self, source_frames: FloatArray, target_frames: FloatArray) -> None:
         """Measure frames (F, Vs, 3) of the source and (F, Vt, 3) of the target."""
         rest = self.target.vertices.astype(np.float32)
-        for before, after in zip(source_frames, target_frames, strict=True):
+        gaping = self._gaping(source_frames, target_frames)
+        for before, after, gaps in zip(source_frames, target_frames, gaping, strict=True):
             torn = self._defects.torn(after, self._defects.calm(before))
             also = self._defects.turned_at_counterpart(before)[self.target.faces].any(axis=1)
             turned = self._defects.turned(after) & ~also
             self.torn.append(int(torn.sum()))
             self.flipped.append(int(turned.sum()))
-            self.spots.append(Spots(np.unique(self.target.edges[torn]), np.unique(self.target.faces[turned])))
+            self.spots.append(Spots(np.unique(self.target.edges[torn]), np.unique(self.target.faces[turned]), *gaps))
             moved = np.sqrt(np.square(after - rest).sum(axis=1).max(initial=0.0))
             self.largest.append(float(moved))
             if np.array_equal(before, self.source.vertices.astype(np.float32)):
@@ -63,6 +68,11 @@ class Quality:
 
     def __post_init__(self) -> None:
         self._defects = Defects(self.source, self.target, self.counterpart)
+
+    def _gaping(self, source_frames: FloatArray, target_frames: FloatArray) -> Sequence[Gaping]:
+        if self.seams is None:
+            return [Gaping(np.empty(0, np.int64), np.empty(0, np.int64))] * len(source_frames)
+        return self.seams.gaping(source_frames, target_frames)
 
     def per_frame(self) -> Mapping[str, Sequence[float]]:
         """What was measured of each frame: name -> a figure for each."""

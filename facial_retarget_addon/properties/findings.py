@@ -21,6 +21,8 @@ class FACIAL_RETARGET_PG_finding(PropertyGroup):
     lid_gap: FloatProperty(name="Lid Gap", description="More than the source's, in percent of the eye's opening")
     torn_vertices: StringProperty(name="Torn Vertices", description="Vertices of the torn edges, packed")
     turned_vertices: StringProperty(name="Turned Vertices", description="Vertices of the turned triangles, packed")
+    lip_vertices: StringProperty(name="Lip Vertices", description="Vertices of lips that gape, packed")
+    lid_vertices: StringProperty(name="Lid Vertices", description="Vertices of lids that gape, packed")
 
 
 CLASSES = (FACIAL_RETARGET_PG_finding,)

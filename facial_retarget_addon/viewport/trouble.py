@@ -1,4 +1,4 @@
-"""The chosen finding of the report in the view: its torn edges and turned triangles, while they are shown."""
+"""The chosen finding of the report in the view: torn edges, turned triangles, lips and lids that gape."""
 
 from __future__ import annotations
 
@@ -12,9 +12,15 @@ from .changes import look
 from .lines import draw_lines, line_batch
 from .shaders import linear
 
-TORN, TURNED = linear(1.0, 0.15, 0.55), linear(1.0, 0.84, 0.0)
+LOOKS = {
+    "lip_vertices": (linear(0.25, 0.85, 1.0), 2.5),
+    "lid_vertices": (linear(0.25, 0.85, 1.0), 2.5),
+    "torn_vertices": (linear(1.0, 0.15, 0.55), 3.0),
+    "turned_vertices": (linear(1.0, 0.84, 0.0), 2.0),
+}
+"""Where a finding keeps its vertices -> the colour and width of their lines, in the order of drawing."""
 
-_made: list[tuple[Any, tuple[GPUBatch | None, GPUBatch | None]]] = []
+_made: list[tuple[Any, list[GPUBatch | None]]] = []
 
 
 def forget() -> None:
@@ -28,11 +34,11 @@ def draw_trouble_spots(context: Context, thing: Object, view: Matrix, projection
     if not 0 <= face.active_finding < len(face.findings) or not _is_shown(context, thing):
         return
     finding = face.findings[face.active_finding]
-    state = (thing.session_uid, look(thing), finding.torn_vertices, finding.turned_vertices)
+    state = (thing.session_uid, look(thing), *(getattr(finding, kept) for kept in LOOKS))
     if not _made or _made[0][0] != state:
         _made[:] = [(state, _batches(context, thing, state))]
     scale = context.preferences.system.ui_scale
-    for batch, colour, width in zip(_made[0][1], (TORN, TURNED), (3.0, 2.0), strict=True):
+    for batch, (colour, width) in zip(_made[0][1], LOOKS.values(), strict=True):
         if batch is not None:
             draw_lines(batch, view, projection, width * scale, colour, through=True)
 
@@ -47,12 +53,12 @@ def _is_shown(context: Context, thing: Object) -> bool:
     return keys is not None and finding.name in keys.key_blocks and keys.key_blocks[finding.name].value > 0.5
 
 
-def _batches(context: Context, thing: Object, state: Any) -> tuple[GPUBatch | None, GPUBatch | None]:
+def _batches(context: Context, thing: Object, state: Any) -> list[GPUBatch | None]:
     from ..bridge.points.point_places import shown_vertices
     from ..bridge.reports.findings import edges_among, unpacked  # loads SciPy, which enabling does not
 
     places = shown_vertices(thing, context.view_layer.depsgraph)
     if places is None or thing.facial_retarget.findings_vertices != len(places):
-        return None, None
-    torn, turned = (places[edges_among(thing, unpacked(text))] for text in state[2:])
-    return (line_batch(torn) if len(torn) else None), (line_batch(turned) if len(turned) else None)
+        return [None] * len(LOOKS)
+    lines = [places[edges_among(thing, unpacked(text))] for text in state[2:]]
+    return [line_batch(pieces) if len(pieces) else None for pieces in lines]

@@ -13,7 +13,7 @@ from facial_retarget_addon.core.methods import motion_cloning
 from facial_retarget_addon.core.methods.settings import MotionCloningSettings
 from facial_retarget_addon.core.points import FeaturePoints
 from facial_retarget_addon.core.problem import Face, Problem
-from facial_retarget_addon.core.seams.gaps import SeamGaps
+from facial_retarget_addon.core.seams.gaps import GAPES, SeamGaps
 from facial_retarget_addon.core.seams.lids import GUIDES, LidSeams, find_eye_margins
 from facial_retarget_addon.core.seams.margins import on_rim
 from facial_retarget_addon.core.unfolding import Unfolding
@@ -151,6 +151,36 @@ def test_lips_whose_inner_points_are_one_place_are_measured_outside(actor: demo.
     found = SeamGaps(Problem(actor.face, welded)).measured(opened, opened)
     assert found["lip_gap_percent"] == found["source_lip_gap_percent"]
     assert found["lip_gap_percent"][0] > 20
+
+
+def test_gaping_is_where_lips_and_lids_are_open_wider_than_the_source(actor: demo.DemoFace, child: Face) -> None:
+    gaps, mesh = SeamGaps(Problem(actor.face, child)), child.mesh
+    neutral = actor.face.mesh.vertices.astype(np.float32)
+    frames = np.stack([neutral, blink(actor)[0], actor.frames(demo.contractions({"jaw": 1.0}))[0], neutral])
+    moved = np.repeat(mesh.vertices[None].astype(np.float32), 4, axis=0)
+    between = child.points.subset(["2.2", "2.3"]).positions(mesh.vertices)[:, 1].mean()
+    moved[3, mesh.vertices[:, 1] < between, 1] -= 0.05 * mesh.size
+    gaping, found = gaps.gaping(frames, moved), gaps.measured(frames, moved)
+    for what, each in (("lip", [one.lips for one in gaping]), ("lid", [one.lids for one in gaping])):
+        more = np.subtract(found[f"{what}_gap_percent"], found[f"source_{what}_gap_percent"])
+        assert [len(vertices) > 0 for vertices in each] == (more >= GAPES).tolist()
+    eye = find_eye_margins(mesh, child.points)
+    margins = [np.concatenate([one.upper.vertices, one.lower.vertices]) for one in eye.values()]
+    assert any(np.isin(gaping[1].lids, margin).all() for margin in margins), "one eye alone is counted"
+    assert len(gaping[1].lids) > 0.7 * min(map(len, margins))
+    open_lips = mesh.vertices[gaping[3].lips]
+    corners = child.points.subset(["8.3", "8.4"]).positions(mesh.vertices)
+    assert np.isin(child.points.subset(["2.2", "2.3"]).holders, gaping[3].lips).all()
+    assert open_lips[:, 0].min() >= corners[:, 0].min()
+    assert open_lips[:, 0].max() <= corners[:, 0].max()
+    assert np.linalg.norm(open_lips - corners.mean(axis=0), axis=1).max() < np.linalg.norm(corners[0] - corners[1])
+
+
+def test_a_face_gapes_nowhere_against_itself(actor: demo.DemoFace) -> None:
+    acted = actor.frames(demo.contractions({"jaw": 1.0}))
+    for found in SeamGaps(Problem(actor.face, actor.face)).gaping(acted, acted):
+        assert not len(found.lips)
+        assert not len(found.lids)
 
 
 # ---- folds --------------------------------------------------------------------------------------

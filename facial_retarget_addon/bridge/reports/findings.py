@@ -18,6 +18,14 @@ from ...core.retarget import Result
 from ..cloning.clone_report import SLIGHT, figures_note, trouble
 from ..shape_keys import find_key
 
+PLACES = {
+    "TORN": ("torn_vertices", "torn edges"),
+    "TURNED": ("turned_vertices", "turned triangles"),
+    "LIPS": ("lip_vertices", "gap between the lips"),
+    "LIDS": ("lid_vertices", "gap between the lids"),
+}
+"""Kind of trouble -> where a finding keeps its vertices, and what it is called."""
+
 
 class Finding(NamedTuple):
     """Figures as in a row of the report, and where the trouble is."""
@@ -78,7 +86,7 @@ def select_spots(thing: Object, kind: str) -> int:
 
     Parameters
     ----------
-    kind : "TORN" or "TURNED".
+    kind : a key of `PLACES`.
 
     Returns
     -------
@@ -86,19 +94,23 @@ def select_spots(thing: Object, kind: str) -> int:
 
     Raises
     ------
-    RetargetError : if the mesh has other vertices than then, or all of the trouble lies on other objects of the head.
+    RetargetError : if the mesh has other vertices than then, or the finding has no such trouble, or all of it lies on
+        other objects of the head.
     """
     face = thing.facial_retarget
     finding = face.findings[face.active_finding]
-    rows = unpacked(finding.torn_vertices if kind == "TORN" else finding.turned_vertices)
+    kept, called = PLACES[kind]
+    rows = unpacked(getattr(finding, kept))
     if face.findings_vertices != len(thing.data.vertices):
         raise RetargetError(
             f"object {thing.name!r} has {len(thing.data.vertices)} vertices, expected the {face.findings_vertices} "
             "that it had when this was found"
         )
+    if not len(rows):
+        raise RetargetError(f"{finding.name} has no {called}, expected a row of the report with a figure there")
     own = rows[rows < len(thing.data.vertices)]
     if not len(own):
-        raise RetargetError(f"nothing of {finding.name} is to be selected on object {thing.name!r}: look at its parts")
+        raise RetargetError(f"all {called} of {finding.name} are on the parts of {thing.name!r}, not on it")
     if bpy.context.mode != "OBJECT":
         bpy.ops.object.mode_set(mode="OBJECT")
     for other in bpy.context.selected_objects:
@@ -151,7 +163,8 @@ def _add(face: PropertyGroup, name: str, found: Finding, frame: float | None) ->
     finding.torn = int(figures.get("torn_edges", 0))
     finding.turned = int(figures.get("flipped_triangles", 0))
     finding.lip_gap, finding.lid_gap = figures.get("lip_gap_percent", 0.0), figures.get("lid_gap_percent", 0.0)
-    finding.torn_vertices, finding.turned_vertices = packed(found.spots.torn), packed(found.spots.turned)
+    for (kept, _), vertices in zip(PLACES.values(), found.spots, strict=True):
+        setattr(finding, kept, packed(vertices))
 
 
 def _drop(face: PropertyGroup, wanted: Any) -> None:

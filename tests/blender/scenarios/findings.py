@@ -17,17 +17,17 @@ source = grid("source", 8)
 whole = np.arange(64)
 
 
-def none() -> np.ndarray:
-    """No vertices."""
-    return np.empty(0, np.int64)
+def at(torn: object = (), turned: object = (), lips: object = (), lids: object = ()) -> object:
+    """Spots at vertices."""
+    return quality.Spots(*(np.array(rows, np.int64) for rows in (torn, turned, lips, lids)))
 
 
 # Frames 5 to 8: the third is the worst, the first has nothing to say but what its source shows as well.
 spots = [
-    quality.Spots(none(), none()),
-    quality.Spots(np.array([3, 4]), none()),
-    quality.Spots(np.array([10, 11, 12]), np.array([20, 21, 28])),
-    quality.Spots(none(), none()),
+    at(),
+    at([3, 4]),
+    at([10, 11, 12], [20, 21, 28], lids=[70, 71]),
+    at(lips=[40, 41], lids=[50]),
 ]
 figures = {
     "torn_edges": [0, 1, 3, 0],
@@ -53,9 +53,9 @@ for name in ("joy", "anger"):
     face.shape_key_add(name=name, from_mix=False).value = 0.0
 row = {"name": "joy", "largest_motion": 1.0, "share_of_source": 1.0, "torn_edges": 9, "flipped_triangles": 0}
 for torn in (99, 9):
-    found = {name: findings.Finding({**row, "torn_edges": torn}, quality.Spots(whole[:5], none())) for name in ("joy",)}
+    found = {name: findings.Finding({**row, "torn_edges": torn}, at(whole[:5])) for name in ("joy",)}
     findings.write_key_findings(face, found)
-findings.write_key_findings(face, {"anger": findings.Finding({**row, "torn_edges": 2}, quality.Spots(whole, none()))})
+findings.write_key_findings(face, {"anger": findings.Finding({**row, "torn_edges": 2}, at(whole))})
 assert [one.name for one in known.findings] == ["Frame 8", "joy", "Frame 7", "anger", "Frame 6"]
 assert [one.torn for one in known.findings] == [0, 9, 3, 2, 1]
 
@@ -76,14 +76,21 @@ def selected() -> list[int]:
 
 
 bpy.context.view_layer.objects.active = source
-known.active_finding = 2
-for kind, wanted in (("TORN", [10, 11, 12]), ("TURNED", [20, 21, 28])):
+for row, kind, wanted in (
+    (2, "TORN", [10, 11, 12]),
+    (2, "TURNED", [20, 21, 28]),
+    (0, "LIPS", [40, 41]),
+    (0, "LIDS", [50]),
+):
+    known.active_finding = row
     bpy.ops.facial_retarget.select_trouble(kind=kind)
     assert (bpy.context.mode, bpy.context.active_object) == ("EDIT_MESH", face)
     assert selected() == wanted
-known.active_finding = 0
-with refused("Frame 8", "nothing"):
+with refused("Frame 8", "no torn edges"):
     bpy.ops.facial_retarget.select_trouble(kind="TORN")
+known.active_finding = 2
+with refused("gap between the lids", "Frame 7", "on the parts of 'face'"):
+    bpy.ops.facial_retarget.select_trouble(kind="LIDS")
 
 # All of it is in the file.
 bpy.ops.wm.save_as_mainfile(filepath=str(folder / "findings.blend"))

@@ -10,7 +10,6 @@ from drive import (
     on_screen,
     open_section,
     open_tab,
-    press_button,
     region,
     screenshot,
     still,
@@ -18,8 +17,8 @@ from drive import (
 )
 from stage import add_face, choose, clear, part
 
-PINK = np.array([255, 38, 140])
-"""Of torn edges."""
+PINK, BLUE = np.array([255, 38, 140]), np.array([64, 217, 255])
+"""Of torn edges, and of lips and lids that gape."""
 
 
 def picture(name: str) -> np.ndarray:
@@ -39,11 +38,11 @@ def warmth(shown: np.ndarray, place: np.ndarray) -> int:
     return int(np.ptp(shown[y - 2 : y + 3, x - 2 : x + 3], axis=2).max())
 
 
-def pink(shown: np.ndarray) -> int:
-    """How many pixels of the view are pink."""
+def coloured(shown: np.ndarray, colour: np.ndarray) -> int:
+    """How many pixels of the view have a colour."""
     view = region()
     inside = shown[view.y : view.y + view.height, view.x : view.x + view.width]
-    return int((np.abs(inside - PINK).max(axis=2) < 12).sum())
+    return int((np.abs(inside - colour).max(axis=2) < 12).sum())
 
 
 def scenario():
@@ -54,23 +53,25 @@ def scenario():
     task, scene = bpy.context.scene.facial_retarget, bpy.context.scene
     task.source, task.target = source, target
     task.overlay.show_points = task.overlay.show_diagram = False
-    scene.frame_start, scene.frame_end = 1, 3
+    scene.frame_start, scene.frame_end = 1, 4
 
-    # What a bake leaves behind, with the chin pulled down in frame 2 and the brow up in frame 3.
+    # What a bake leaves behind: the chin is pulled down in frame 2, the brow up in frame 3, the jaw opens in frame 4.
     mesh, points = built.face.mesh, built.face.points
     chin, brow = points.subset(["2.1"]).holders[0], points.subset(["4.3"]).holders[0]
-    frames = np.repeat(mesh.vertices[None].astype(np.float32), 3, axis=0)
+    frames = np.repeat(mesh.vertices[None].astype(np.float32), 4, axis=0)
+    frames[3] = built.frames(demo.contractions({"jaw": 1.0}))[0]
     for frame, vertex, way in ((1, chin, -0.5), (2, brow, 0.5)):
         near = np.exp(-np.square(mesh.vertices - mesh.vertices[vertex]).sum(axis=1) / 0.02)
         frames[frame, :, 1] += way * near
-    judged = quality.Quality(mesh, mesh, np.arange(len(mesh.vertices)))
-    judged.add(frames[[0, 0, 0]], frames)
+    gaps = part("core.seams.gaps").SeamGaps(part("core.problem").Problem(built.face, built.face))
+    judged = quality.Quality(mesh, mesh, np.arange(len(mesh.vertices)), gaps)
+    judged.add(frames[[0, 0, 0, 0]], frames)
     part("bridge.bakes.frames").write_frames(target, frames, 1)
     result = type("Result", (), {})()
     result.spots, result.per_frame, result.counterpart = judged.spots, judged.per_frame(), np.arange(len(mesh.vertices))
     findings.write_frame_findings(target, source, result, range(1, 1 + len(result.spots)))
     known = target.facial_retarget
-    assert len(known.findings) == 2, known.findings_text
+    assert len(known.findings) == 3, known.findings_text
     choose(target)
     yield from look("FRONT", [source, target])
 
@@ -88,10 +89,15 @@ def scenario():
     task.overlay.show_heat = True
     area().tag_redraw()
     marked = yield from picture("torn_edges")
-    assert pink(marked) > 50, pink(marked)
+    assert coloured(marked, PINK) > 50, coloured(marked, PINK)
     scene.frame_set(1)
     rest = yield from picture("rest")
-    assert pink(rest) == 0
+    assert coloured(rest, PINK) == 0
+
+    # So are the edges of lips that gape.
+    known.active_finding = known.findings.find("Frame 4")
+    gaping = yield from picture("gaping_lips")
+    assert coloured(gaping, BLUE) > 50, coloured(gaping, BLUE)
 
     # The heat map is warm where the face is stretched, cold elsewhere, and follows the frames.
     world = np.array(target.matrix_world)
@@ -113,12 +119,15 @@ def scenario():
     assert warmth(shown, place(2, "4.3")) < 15
 
     # Select does.
-    known.active_finding = 0
-    yield from wait()
-    yield from press_button('facial_retarget.select_trouble(kind="TORN")')
-    assert bpy.context.mode == "EDIT_MESH"
-    screenshot("selected")
-    bpy.ops.object.mode_set(mode="OBJECT")
-    chosen = np.empty(len(mesh.vertices), bool)
-    target.data.vertices.foreach_get("select", chosen)
-    assert np.array_equal(np.flatnonzero(chosen), findings.unpacked(known.findings[0].torn_vertices))
+    for frame, kind, kept in (("Frame 2", "TORN", "torn_vertices"), ("Frame 4", "LIPS", "lip_vertices")):
+        known.active_finding = known.findings.find(frame)
+        yield from wait()
+        wanted = f'facial_retarget.select_trouble(kind="{kind}")'
+        yield from click(*(yield from find_button(wanted, across=(0.43, 0.71))))
+        assert bpy.context.mode == "EDIT_MESH"
+        screenshot(f"selected_{kind.lower()}")
+        bpy.ops.object.mode_set(mode="OBJECT")
+        chosen = np.empty(len(mesh.vertices), bool)
+        target.data.vertices.foreach_get("select", chosen)
+        rows = findings.unpacked(getattr(known.findings[frame], kept))
+        assert np.array_equal(np.flatnonzero(chosen), rows), (frame, kind)
