@@ -13,7 +13,7 @@ from facial_retarget_addon.core.arrays import FloatArray
 from facial_retarget_addon.core.base.regions import eye_separation
 from facial_retarget_addon.core.mesh import TriMesh
 from facial_retarget_addon.core.methods.base import fit
-from facial_retarget_addon.core.methods.settings import MotionCloningSettings
+from facial_retarget_addon.core.methods.settings import BakeSettings, MotionCloningSettings
 from facial_retarget_addon.core.problem import Face, Problem
 from facial_retarget_addon.core.reduction.compact import compact
 from facial_retarget_addon.core.reduction.rig_fit import fit_to_keys, residual_keys
@@ -22,8 +22,8 @@ from facial_retarget_addon.files.points import read_points
 from .real_pair import DATA
 from .timing import Row
 
-TOLERANCE, BLOCK = 0.005, 64
-"""Of the eye separation; frames that go through at once."""
+HOW, BLOCK = BakeSettings(), 64
+"""The defaults; frames that go through at once."""
 
 
 def rows() -> Iterator[Row]:
@@ -38,20 +38,24 @@ def rows() -> Iterator[Row]:
     motion = np.concatenate([retargeter.frames(frames(first)) - rest for first in range(0, frames.count, BLOCK)])
     unit = eye_separation(target.mesh, target.points)
     start = perf_counter()
-    keyed = compact(motion, target.mesh.vertices, TOLERANCE * unit, unit, np.random.default_rng(0))
+    keyed = compact(motion, target.mesh.vertices, HOW.tolerance * unit, unit, np.random.default_rng(0))
     seconds = perf_counter() - start
     size, whole = (keyed.shapes.nbytes + keyed.curves.nbytes) / 1e6, motion.nbytes / 1e6
     yield Row("frames, each a key otherwise", len(motion), "")
     yield Row("shape keys at 0.5 % of the eye separation", len(keyed.shapes), "")
-    yield Row("largest error of a frame, of the tolerance", float(keyed.errors.max() / (TOLERANCE * unit)), "", 1.0)
+    yield Row("largest error of a frame, of the tolerance", float(keyed.errors.max() / (HOW.tolerance * unit)), "", 1.0)
     yield Row("worst vertex of all frames, of the eye separation", 100 * float(keyed.worst.max() / unit), "%")
     yield Row("size", size, "MB")
     yield Row("size of a key per frame", whole, "MB")
     yield Row("smaller by", whole / size, "x")
     yield Row("time", seconds, "s")
     start = perf_counter()
-    fitted = fit_to_keys(motion, units, np.zeros(len(units)), np.ones(len(units)), 0.05)
+    low, high = np.zeros(len(units)), np.ones(len(units))
+    fitted = fit_to_keys(motion, units, low, high, HOW.smoothness, HOW.sparsity)
     yield Row(f"fitted to {len(units)} own units: time", perf_counter() - start, "s")
+    dense = fit_to_keys(motion, units, low, high, HOW.smoothness)
+    yield Row("their values together, of those without sparsity", float(fitted.curves.sum() / dense.curves.sum()), "")
+    yield Row("error, of that without sparsity", float(fitted.errors.mean() / dense.errors.mean()), "", 1.03)
     for share in (0.5, 0.95):
         what = f"error of {100 * share:.0f} % of the frames, of the eye separation"
         yield Row(f"own units: {what}", 100 * float(np.quantile(fitted.errors, share) / unit), "%")

@@ -54,7 +54,7 @@ class FACIAL_RETARGET_PT_bake(RetargetTab, Panel):
             draw_cost(layout, context)
 
 
-SETTINGS_OF = {"compact": ("tolerance",), "rig": ("smoothness", "residual")}
+SETTINGS_OF = {"compact": ("tolerance",), "rig": ("smoothness", "sparsity", "residual")}
 """Kind of a bake -> the settings that it has."""
 
 

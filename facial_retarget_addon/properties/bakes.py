@@ -39,6 +39,7 @@ class FACIAL_RETARGET_PG_bake_how(PropertyGroup):
     kind: EnumProperty(name="Bake As", description="What the frames become on the target", items=BAKES)
     tolerance: FloatProperty(precision=4, step=0.1, **_limits("tolerance"))
     smoothness: FloatProperty(**_limits("smoothness"))
+    sparsity: FloatProperty(precision=3, step=0.1, **_limits("sparsity"))
     residual: IntProperty(**_limits("residual"))
 
 

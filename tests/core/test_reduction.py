@@ -117,6 +117,26 @@ def test_smoothness_takes_jitter_out_and_keeps_slow_motion() -> None:
     assert np.abs(np.diff(smooth.curves, 2, axis=0)).mean() < 0.2 * np.abs(np.diff(rough.curves, 2, axis=0)).mean()
 
 
+def test_sparsity_leaves_keys_at_zero_that_others_nearly_stand_for() -> None:
+    _, shapes, curves = bumps()
+    extra = np.concatenate([shapes, 0.4 * (shapes[:1] + shapes[1:2])])
+    motion = frames_of(shapes, curves).astype(np.float32)
+    many = fit_to_keys(motion, extra, np.full(5, -1), np.full(5, 2))
+    few = fit_to_keys(motion, extra, np.full(5, -1), np.full(5, 2), sparsity=0.01)
+    assert np.abs(many.curves[:, 4]).mean() > 0.1
+    assert not few.curves[:, 4].any()
+    assert np.abs(few.displacements() - motion).max() < 0.02 * np.abs(motion).max()
+
+
+def test_the_price_of_a_value_is_taken_off_it() -> None:
+    # Bumps that do not overlap: each value falls by the price over its key's own energy, and stops at zero.
+    _, shapes, curves = bumps()
+    energy = (shapes.astype(np.float64) ** 2).sum(axis=(1, 2))
+    found = fit_to_keys(frames_of(shapes, curves), shapes, np.zeros(4), np.ones(4), sparsity=0.1)
+    expected = np.clip(curves - 0.1 * energy.mean() / energy, 0, 1)
+    np.testing.assert_allclose(found.curves, expected, atol=2e-3)
+
+
 def test_a_residual_key_takes_what_the_sliders_leave_in_its_frames_only() -> None:
     _, shapes, curves = bumps()
     motion = frames_of(shapes, curves).astype(np.float32)

@@ -195,6 +195,9 @@ class BakeSettings:
     smoothness: float = _setting(
         0.05, "How much the curves of a rig are kept from bending from frame to frame", low=0.0, high=100.0
     )
+    sparsity: float = _setting(
+        0.005, "How much the curves of a rig are kept at zero where others do nearly as well", low=0.0, high=1.0
+    )
     residual: int = _setting(
         0, "Frames that share one more shape key for what a rig's own cannot do; 0: no such keys", low=0, high=100000
     )

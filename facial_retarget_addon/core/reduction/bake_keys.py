@@ -103,7 +103,7 @@ def onto_rig(
     taken = sorted(set(new) & set(rig.names))
     if taken:
         raise RetargetError(f"the rig has a shape {taken[0]!r} already, expected another name than that of a new key")
-    keyed = fit_to_keys(moves, rig.shapes, rig.low, rig.high, settings.smoothness, progress)
+    keyed = fit_to_keys(moves, rig.shapes, rig.low, rig.high, settings.smoothness, settings.sparsity, progress)
     return BakedKeys((*rig.names, *new), residual_keys(moves, keyed, ranges) if ranges else keyed, len(ranges))
 
 
