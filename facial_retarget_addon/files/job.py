@@ -8,8 +8,12 @@ from typing import Any
 
 from ..core.errors import RetargetError
 from ..core.methods.settings import LEVELED, MASK_GAIN, LevelSettings, MapSettings, RegionGains, Settings, read_values
+from .bake_output import BakeOutput, bake_lines, read_bake
 from .documents import Table, fault_sentence, read_toml
+from .frame_range import EVERY_FRAME, FrameRange
+from .frames import FPS
 from .job_values import check_method, read_method_settings, read_optional_path, read_path, relative, toml
+from .motion.rates import FASTEST, SLOWEST
 from .whole import overwritten, write_whole
 
 VERSION = 1
@@ -67,7 +71,8 @@ class Job:
     base : a base mesh of the artist's own, or None.
     path : the job file itself.
     regions, masks : how strong the motion is at each place of the target.
-    normal_maps : None for none.
+    normal_maps, bake : None for none.
+    chosen : which of the source's frames. fps : how many of them, chosen or not, there are a second.
     """
 
     method: str
@@ -81,6 +86,9 @@ class Job:
     regions: RegionGains = field(default_factory=RegionGains)
     masks: tuple[MaskFile, ...] = ()
     normal_maps: MapOutput | None = None
+    bake: BakeOutput | None = None
+    chosen: FrameRange = EVERY_FRAME
+    fps: float = FPS
 
     def inputs(self) -> dict[str, Path]:
         """What is read: how the job file names it -> its path."""
@@ -98,13 +106,16 @@ class Job:
             named[f"example {example.name!r} source"] = example.source
             named[f"example {example.name!r} target"] = example.target
         named |= {f"mask {mask.name!r}": mask.weights for mask in self.masks}
+        named["[bake] rig"] = None if self.bake is None else self.bake.rig
         return {name: path for name, path in named.items() if path is not None}
 
     def outputs(self) -> dict[str, Path]:
         """What is written: how the job file names it -> its path."""
         named = {"frames": self.output.frames, "report": self.output.report, "page": self.output.page}
         written = {f"[output] {name}": path for name, path in named.items() if path is not None}
-        return written if self.normal_maps is None else {**written, "[normal_maps] folder": self.normal_maps.folder}
+        if self.normal_maps is not None:
+            written["[normal_maps] folder"] = self.normal_maps.folder
+        return written if self.bake is None else written | self.bake.outputs()
 
 
 def read_job(path: Path) -> Job:
@@ -120,9 +131,11 @@ def read_job(path: Path) -> Job:
     root.expect("version", VERSION)
     method = root.get("method", str)
     check_method(method, wrong)
+    source = root.table("source")
+    chosen, fps = _read_timing(source)
     job = Job(
         method=method,
-        source=_read_face(root.table("source"), path.parent, ("points", "parts"), ("frames",)),
+        source=_read_face(source, path.parent, ("points", "parts"), ("frames",)),
         target=_read_face(root.table("target"), path.parent, ("points", "parts"), ()),
         examples=_read_examples(root, path.parent),
         settings=read_method_settings(method, root),
@@ -132,6 +145,9 @@ def read_job(path: Path) -> Job:
         regions=_read_regions(root),
         masks=_read_masks(root, path.parent),
         normal_maps=_read_normal_maps(root, path.parent),
+        bake=read_bake(root, path.parent),
+        chosen=chosen,
+        fps=fps,
     )
     if job.normal_maps is not None:
         wrong += _map_faults(job.normal_maps, method, job.settings)
@@ -148,6 +164,19 @@ def _read_face(table: Table, folder: Path, optional: tuple[str, ...], required: 
     found |= {key: read_optional_path(table, key, folder) for key in optional}
     table.no_more()
     return FaceFiles(**found)
+
+
+def _read_timing(source: Table) -> tuple[FrameRange, float]:
+    """Which frames of the source are wanted, and how many there are a second."""
+    text, fps = source.optional("range", str), source.optional("fps", float)
+    if fps is not None and not SLOWEST <= fps <= FASTEST:
+        source.wrong.append(f"{source.where} fps = {fps:g}, expected a number from {SLOWEST:g} to {FASTEST:g}")
+    try:
+        chosen = EVERY_FRAME if text is None else FrameRange.of_text(text)
+    except RetargetError as error:
+        source.wrong.append(f"{source.where} range: {error}")
+        chosen = EVERY_FRAME
+    return chosen, FPS if fps is None else fps
 
 
 def _read_examples(root: Table, folder: Path) -> tuple[ExampleFiles, ...]:
@@ -233,7 +262,10 @@ def write_job(job: Job, path: Path) -> None:
     lines = [f"version = {VERSION}", f"method = {toml(job.method)}"]
     if job.base is not None:
         lines.append(f"base = {toml(relative(job.base, folder))}")
-    lines += _face_lines("source", job.source, folder) + _face_lines("target", job.target, folder)
+    lines += _face_lines("source", job.source, folder)
+    lines += [] if job.chosen.whole else [f"range = {toml(str(job.chosen))}"]
+    lines += [] if job.fps == FPS else [f"fps = {toml(job.fps)}"]
+    lines += _face_lines("target", job.target, folder)
     for example in job.examples:
         lines += ["", "[[examples]]", f"name = {toml(example.name)}"]
         lines += [f"{key} = {toml(relative(getattr(example, key), folder))}" for key in ("source", "target")]
@@ -246,6 +278,7 @@ def write_job(job: Job, path: Path) -> None:
     if job.normal_maps is not None:
         lines += ["", "[normal_maps]", f"folder = {toml(relative(job.normal_maps.folder, folder))}"]
         lines += [f"{f.name} = {toml(getattr(job.normal_maps.settings, f.name))}" for f in fields(MapSettings)]
+    lines += [] if job.bake is None else bake_lines(job.bake, folder)
     lines += ["", "[settings]"]
     lines += [f"{field.name} = {toml(getattr(job.settings, field.name))}" for field in fields(job.settings)]
     lines += ["", "[output]"]

@@ -19,7 +19,9 @@ from ..core.normal_maps.frame_maps import FrameMaps
 from ..core.parts.kinds import NO_NAMES, NamedParts
 from ..core.points import FeaturePoints
 from ..core.problem import Face, Problem
+from ..core.reduction.bake_keys import RigKeys
 from ..core.retarget import retarget
+from .bake_output import add_bake, bake_frames, check_bake_places, read_rig
 from .base_mesh import read_base_mesh
 from .frames import add_frames, check_frames_place, read_frames
 from .images import suffix_of
@@ -39,12 +41,17 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, eq=False)
 class Inputs:
-    """What a job's files hold: the problem, the source's frames (F, Vs, 3), both faces as they stand in their files."""
+    """What a job's files hold: the problem, the source's chosen frames (F, Vs, 3), both faces as they stand there.
+
+    numbers : of the frames, from 1. rig : the target's own shapes, where a bake moves them.
+    """
 
     problem: Problem
     frames: FloatArray | None
     source: MeshFile
     target: MeshFile
+    numbers: range = range(0)
+    rig: RigKeys | None = None
 
 
 class Findings(NamedTuple):
@@ -77,13 +84,21 @@ def run_job(path: Path, progress: Progress = no_progress) -> dict[str, Any]:
     if wrong or inputs is None or inputs.frames is None:
         raise RetargetError("; ".join([*wrong, *_problem_faults(inputs, job)]))
     seconds = {"read": time.perf_counter() - start}
-    result = retarget(job.method, inputs.problem, job.settings, inputs.frames, progress_part(progress, 0.1, 0.85))
+    result = retarget(job.method, inputs.problem, job.settings, inputs.frames, progress_part(progress, 0.1, 0.8))
     report = {"job": job.path.name, **result.report}
     report["seconds"] = seconds | report.get("seconds", {})
+    baked = None
+    if job.bake is not None:
+        start, target = time.perf_counter(), inputs.problem.target
+        baking = progress_part(progress, 0.8, 0.85)
+        baked, report["bake"] = bake_frames(job.bake, inputs.rig, target, result.frames, baking)
+        report["seconds"]["bake"] = time.perf_counter() - start
     progress(0.85, "Writing")
     with written_whole() as aside:
         corners = inputs.target.counts, inputs.target.corners
-        add_frames(aside, result.frames, job.output.frames, corners)
+        add_frames(aside, result.frames, job.output.frames, corners, job.fps / job.chosen.step)
+        if job.bake is not None and baked is not None:
+            add_bake(aside, job.bake, baked, inputs.target, inputs.numbers, job.fps)
         if job.output.report is not None:
             aside.place(job.output.report).write_bytes(report_json(report))
         if job.output.page is not None:
@@ -143,6 +158,8 @@ def _read(job: Job) -> tuple[Inputs | None, list[str]]:
     for output in (job.output.report, job.output.page):
         if output is not None:
             reading.attempt(check_place, output)
+    if job.bake is not None:
+        reading.attempt(check_bake_places, job.bake)
     if job.normal_maps is not None:
         reading.attempt(check_place, job.normal_maps.folder, suffix_of(job.normal_maps.settings.depth))
         if inputs is not None and not job.normal_maps.settings.level:
@@ -180,11 +197,17 @@ class Reading:
             if one is not None and other is not None:
                 examples[example.name] = one, other
         gains = Gains(job.regions, self.masks(job, target))
-        frames = None
+        frames, numbers = None, range(0)
         if job.source.frames is None:
             self.wrong.append(f"{job.path} has no [source] frames, expected the frames to retarget")
         elif source is not None:
             frames = self.attempt(read_frames, job.source.frames, len(source.mesh.vertices))
+            rows = None if frames is None else self.attempt(job.chosen.rows, len(frames))
+            if frames is not None and rows is not None:
+                frames, numbers = frames[rows], range(1, len(frames) + 1)[rows]
+        rig = None
+        if job.bake is not None and target is not None:
+            rig = self.attempt(read_rig, job.bake, target)
         if source is None or target is None or source_points is None or target_points is None:
             return None
         if (base is None and job.base is not None) or source_parts is None or target_parts is None:
@@ -199,6 +222,8 @@ class Reading:
             frames,
             source,
             target,
+            numbers,
+            rig,
         )
 
     def points(self, files: FaceFiles, face: MeshFile | None) -> FeaturePoints | None:

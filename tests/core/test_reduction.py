@@ -1,10 +1,15 @@
 """Frames as few shape keys: how few, how well, and what becomes of keys that are there."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from facial_retarget_addon import demo
 from facial_retarget_addon.core.errors import RetargetError
+from facial_retarget_addon.core.face_regions import REGIONS
+from facial_retarget_addon.core.methods.settings import BakeSettings
+from facial_retarget_addon.core.reduction.bake_keys import RigKeys, compact_keys, onto_rig
 from facial_retarget_addon.core.reduction.compact import compact
 from facial_retarget_addon.core.reduction.keyed import KeyedMotion
 from facial_retarget_addon.core.reduction.rig_fit import fit_to_keys, residual_keys
@@ -54,6 +59,27 @@ def test_a_performance_keeps_its_tolerance_with_few_keys(share: float) -> None:
     assert len(found.shapes) < len(motion) / 5
     np.testing.assert_allclose(found.curves.max(axis=0), 1, rtol=1e-5)
     assert np.abs(found.curves).max() < 1 + 1e-5
+
+
+def test_keys_are_named_after_the_regions_that_they_move_and_numbered_where_points_do_not_tell() -> None:
+    actor = demo.actor(3_000)
+    frames, settings = demo.performance(actor), BakeSettings("compact", tolerance=0.02)
+    baked = compact_keys(actor.face, 1.0, frames, settings)
+    assert baked.made == len(baked.names) == len(set(baked.names)) > 1
+    assert {name.removeprefix("retargeted_").split("_")[0].split(".")[0] for name in baked.names} <= {*REGIONS, "head"}
+    assert any("mouth" in name or "jaw" in name for name in baked.names)
+    points = actor.face.points
+    nameless = replace(points, names=tuple(f"p{number}" for number in range(len(points))))
+    numbered = compact_keys(replace(actor.face, points=nameless), 1.0, frames, settings)
+    assert numbered.names == tuple(f"retargeted_{number}" for number in range(1, 1 + baked.made))
+
+
+def test_a_rig_that_has_the_name_of_a_new_key_is_refused() -> None:
+    actor = demo.actor(3_000)
+    moves = np.ones((1, len(actor.face.mesh.vertices), 3), np.float32)
+    rig = RigKeys(("retargeted_residual_1",), moves, np.zeros(1), np.ones(1))
+    with pytest.raises(RetargetError, match="'retargeted_residual_1' already"):
+        onto_rig(actor.face, rig, actor.face.mesh.vertices + moves, BakeSettings("rig", residual=9))
 
 
 def test_a_tighter_tolerance_takes_no_fewer_keys() -> None:

@@ -12,7 +12,15 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from facial_retarget_addon.core.errors import RetargetError
-from facial_retarget_addon.core.methods.settings import SETTINGS, HierarchicalSettings, MapSettings, RegionGains
+from facial_retarget_addon.core.methods.settings import (
+    SETTINGS,
+    BakeSettings,
+    HierarchicalSettings,
+    MapSettings,
+    RegionGains,
+)
+from facial_retarget_addon.files.bake_output import NUMBERS, BakeOutput
+from facial_retarget_addon.files.frame_range import FrameRange
 from facial_retarget_addon.files.job import (
     ExampleFiles,
     FaceFiles,
@@ -106,6 +114,20 @@ def jobs(draw: st.DrawFn, folder: Path) -> Job:
                 st.builds(MapSettings, level=st.just(0), pixels=st.integers(16, 16384), depth=st.just("exr")),
             )
         ),
+        bake=draw(st.none() | bakes(folder)),
+        chosen=draw(st.builds(FrameRange, st.integers(1, 9), st.none() | st.integers(9, 99), st.integers(1, 9))),
+        fps=draw(st.floats(1, 1000)),
+    )
+
+
+def bakes(folder: Path) -> st.SearchStrategy[BakeOutput]:
+    paths = st.lists(files, unique=True, min_size=1, max_size=2).map(lambda n: tuple(folder / "c" / name for name in n))
+    ranges = st.dictionaries(names, st.tuples(st.floats(-9, 0), st.floats(1, 9)), max_size=2)
+    compact = st.builds(BakeSettings, kind=st.just("compact"), tolerance=st.floats(0.0001, 0.5))
+    rig = st.builds(BakeSettings, kind=st.just("rig"), residual=st.integers(1, 100))
+    place = st.just(folder / "k" / "keys.npz")
+    return st.builds(BakeOutput, compact, paths, place) | st.builds(
+        BakeOutput, rig, paths, place, st.just(folder / "rig.json"), ranges
     )
 
 
@@ -240,6 +262,16 @@ def test_the_example_in_the_documentation_is_a_job(tmp_path):
     assert job.regions == RegionGains(mouth=0.8, jaw=1.2)
     assert job.masks == (MaskFile("scar", tmp_path / "scar.npz", 0.3),)
     assert job.normal_maps == MapOutput(tmp_path / "normal_maps", MapSettings())
+    assert (job.chosen, job.fps) == (FrameRange(1, 400, 2), 30.0)
+    curves = (tmp_path / "curves.csv", tmp_path / "curves.json")
+    assert job.bake == BakeOutput(BakeSettings("compact"), curves, tmp_path / "keys.npz")
+
+
+def test_the_bake_of_a_rig_in_the_documentation_is_one(tmp_path):
+    text = DOCUMENT.read_text(encoding="utf-8").split("## Bakes")[1].split("```toml\n")[1].split("```")[0]
+    bake = read_job(written(tmp_path, MINIMAL + text)).bake
+    assert bake.rig == tmp_path / "target_shapes"
+    assert bake.ranges == {"jawOpen": (0.0, 1.5), "mouthLeft": (-1.0, 1.0)}
 
 
 def test_the_documentation_has_every_region_and_its_help():
@@ -254,11 +286,12 @@ def test_the_documentation_has_every_region_and_its_help():
         ("Settings of `hierarchical`", SETTINGS["hierarchical"]),
         ("Settings of `wavelet`", SETTINGS["wavelet"]),
         ("Normal maps", MapSettings),
+        ("Bakes", BakeSettings),
     ],
 )
 def test_the_documentation_has_every_setting_with_its_default_and_help(heading, settings_of):
     text = DOCUMENT.read_text(encoding="utf-8").split(f"## {heading}")[1]
-    for field in fields(settings_of):
+    for field in NUMBERS if settings_of is BakeSettings else fields(settings_of):
         default = json.dumps(list(field.default) if isinstance(field.default, tuple) else field.default)
         row = next(line for line in text.splitlines() if line.startswith(f"| `{field.name}` |"))
         assert f"| `{default}` |" in row

@@ -37,6 +37,12 @@ _SECTIONS = (
         "Scale is target units for one source unit; coverage the share of the target's surface that lies on the base "
         "mesh; matched the share that found its place on the source. Still components hold no feature point.",
     ),
+    Section(
+        "Bake",
+        ("bake",),
+        "How many shape keys the frames became, and how far the moving vertices are off at the worst frame: their root "
+        "mean square, and the worst of them, in distances between the eyes.",
+    ),
     Section("Times", ("seconds",), "In seconds."),
     Section("Settings", ("method", "settings")),
 )
@@ -83,6 +89,8 @@ def render(
     lead = f"{frame_count} frames. Pictures of the liveliest ones and the worst, source left, target right."
     figures = [_figure(moment, worst_frame(report)) for moment in pictures]
     rows = [] if by_level is None else [_level_row(by_level)]
+    if "bake" in report:
+        report = {**report, "bake": {key: part for key, part in report["bake"].items() if key != "per_frame"}}
     return html_page(title, lead, figures, report, _SECTIONS, shown_elsewhere=("job",), rows=rows)
 
 
