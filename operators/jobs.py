@@ -7,7 +7,6 @@ from bpy.props import EnumProperty, StringProperty
 from bpy.types import Context, Operator
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
-from .errors import tells_user
 from .in_steps import FromBrowser, InSteps
 from .polls import OnCloning, OnTask, in_mode
 
@@ -65,20 +64,22 @@ class FACIAL_RETARGET_OT_save_job(OnTask, FromBrowser, ExportHelper, InSteps, Op
         self.report({"INFO"}, f"Saved {self.filepath}")
 
 
-class FACIAL_RETARGET_OT_save_clone_job(OnCloning, Operator, ExportHelper):
-    """Save the cloning as a job for the command line, with the heads, shapes and corrections that it needs beside it"""
+class FACIAL_RETARGET_OT_save_clone_job(OnCloning, FromBrowser, ExportHelper, InSteps, Operator):
+    """Save the cloning as a job for the command line, with all heads, shapes and corrections beside it; Esc stops"""
 
     bl_idname = "facial_retarget.save_clone_job"
     bl_label = "Save Clone Job"
+    doing = "Saving the job"
 
     filename_ext = ".toml"
     filter_glob: StringProperty(default="*.toml", options={"HIDDEN"})
 
-    @tells_user
-    def execute(self, context: Context) -> set[str]:
-        """Write the files, the job itself last."""
-        from ..facial_retarget_addon.bridge.cloning.clone_job import save_clone_job
+    def steps(self, context: Context) -> Any:
+        """Read the shapes, then write the files, the job itself last."""
+        from ..facial_retarget_addon.bridge.cloning.clone_job import save_clone_job_steps
 
-        save_clone_job(context, Path(self.filepath))
+        return save_clone_job_steps(context, Path(self.filepath))
+
+    def finish(self, result: None) -> None:
+        """Name it."""
         self.report({"INFO"}, f"Saved {self.filepath}")
-        return {"FINISHED"}

@@ -1,32 +1,29 @@
 """Build the base mesh and show it on both faces."""
 
+from typing import Any
+
 from bpy.types import Context, Operator
 
-from .errors import tells_user
+from .in_steps import InSteps
 from .polls import OnTask
 
 
-class FACIAL_RETARGET_OT_show_base(OnTask, Operator):
-    """Build the base mesh from the feature points and show it on both faces, as wire objects"""
+class FACIAL_RETARGET_OT_show_base(OnTask, InSteps, Operator):
+    """Build the base mesh from the feature points and show it on both faces, as wire objects; Esc stops"""
 
     bl_idname = "facial_retarget.show_base"
     bl_label = "Show Base Mesh"
     bl_options = {"REGISTER", "UNDO"}
+    doing = "Building"
 
-    @tells_user
-    def execute(self, context: Context) -> set[str]:
+    def steps(self, context: Context) -> Any:
         """Build, then show."""
-        from ..facial_retarget_addon.bridge.points.base_object import show_base
-        from ..facial_retarget_addon.bridge.task import read_problem
-        from ..facial_retarget_addon.core.base.base_mesh import base_mesh
+        from ..facial_retarget_addon.bridge.points.base_steps import show_base_steps
 
-        problem = read_problem(context)
-        source, target = problem.source, problem.target
-        base = base_mesh(source.mesh, source.points, target.mesh, target.points, problem.base, problem.make_caster)
-        task = context.scene.facial_retarget
-        for thing in (task.source, task.target):
-            show_base(thing, base.names, base.faces)
-        for warning in base.warnings:
+        return show_base_steps(context)
+
+    def finish(self, result: Any) -> None:
+        """Pass on the warnings."""
+        for warning in result.warnings:
             self.report({"WARNING"}, warning)
-        self.report({"INFO"}, f"Base mesh of {len(base.names)} points and {len(base.faces)} triangles")
-        return {"FINISHED"}
+        self.report({"INFO"}, f"Base mesh of {len(result.names)} points and {len(result.faces)} triangles")

@@ -4,42 +4,66 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
+from typing import NamedTuple
 
 from bpy.types import Context, PropertyGroup
 
+from ...core.arrays import Progress
 from ...core.errors import RetargetError
 from ...core.shapes.shape_set import ShapeSet
 from ...demo.shape_sets import POSES
 from ...files.clone_job import BuiltInActor, CloneJob, SourceFiles, TargetFiles, write_clone_job
 from ...files.shape_files import add_shapes
-from ...files.whole import Aside, written_whole
+from ...files.whole import Aside, appear_whole, written_aside
+from ..background import Steps, in_thread, part
 from ..beside import Beside
 from ..heads import Head, read_head
 from ..settings import read_method_settings
 from .clone_wishes import Origin, origins, preparation, wanted_names
 from .cloning import target_faces
 from .donors import read_source_head
+from .head_shapes import read_shapes_steps
 from .resolving import cloned_origins, find_corrected
 
 
-def save_clone_job(context: Context, path: Path) -> None:
+class _Shaped(NamedTuple):
+    """A head and some shapes of it."""
+
+    head: Head
+    shapes: ShapeSet
+
+
+def save_clone_job_steps(context: Context, path: Path) -> Steps[None]:
     """Save what the panel clones: a clone job, its heads, shapes and corrections beside it, together or not at all.
 
     Raises
     ------
     RetargetError : for anything that the cloning lacks, or if the system refuses to write.
     """
-    task = context.scene.facial_retarget
-    settings = read_method_settings(task, task.cloning.method)
+    cloning = context.scene.facial_retarget.cloning
+    settings, method = read_method_settings(context.scene.facial_retarget, cloning.method), cloning.method
     heads = [read_head(face) for face in target_faces(context)]
-    with written_whole() as aside:
-        files = _HeadFiles(path, aside)
-        source, names = _source(task, files)
-        how = preparation(task.cloning)
-        made = {origin: name for name, origin in origins(wanted_names(names, task.cloning), how).items()}
-        targets = tuple(_target(head, made, f"target_{number}", files) for number, head in enumerate(heads, start=1))
-        job = CloneJob(source, targets, how, task.cloning.method, settings, path)
-        write_clone_job(job, aside.place(path))
+    source = yield from part(_source(context.scene.facial_retarget), 0.0, 0.4)
+    names = _actor_names(source) if isinstance(source, BuiltInActor) else list(source.shapes.names)
+    how = preparation(cloning)
+    made = {origin: name for name, origin in origins(wanted_names(names, cloning), how).items()}
+    targets = [_Shaped(head, _corrections(head, made)) for head in heads]
+
+    def write(progress: Progress) -> Aside:
+        with written_aside() as aside:
+            files = _HeadFiles(path, aside)
+            progress(0.0, "Writing")
+            given = source if isinstance(source, BuiltInActor) else files.source(source)
+            wanted = []
+            for number, target in enumerate(targets, start=1):
+                progress(number / (len(targets) + 1), f"Writing head {number} of {len(targets)}")
+                wanted.append(files.target(target, f"target_{number}"))
+            write_clone_job(CloneJob(given, tuple(wanted), how, method, settings, path), aside.place(path))
+            progress(1.0, "Writing")
+        return aside
+
+    # Nothing appears before the artist can no longer stop it.
+    appear_whole((yield from part(in_thread(write, Aside.vanish), 0.4, 0.6)))
 
 
 class _HeadFiles(Beside):
@@ -49,34 +73,43 @@ class _HeadFiles(Beside):
         super().__init__(job, aside)
         self._aside = aside
 
-    def shapes(self, name: str, shapes: ShapeSet, head: Head) -> Path:
-        """Write shapes of a head."""
-        add_shapes(self._aside, shapes, self.path(name), head.file)
+    def source(self, source: _Shaped) -> SourceFiles:
+        """Write a head that gives its shapes."""
+        return SourceFiles(self.head("source", source.head), self._shapes("source_shapes.json", source))
+
+    def target(self, target: _Shaped, role: str) -> TargetFiles:
+        """Write a head that gets shapes, and its corrections."""
+        corrected = self._shapes(f"{role}_corrected.json", target) if len(target.shapes) else None
+        return TargetFiles(
+            self.head(role, target.head),
+            self.path(f"{role}_shapes.json"),
+            corrected=corrected,
+            report=self.path(f"{role}_report.json"),
+            sheet=self.path(f"{role}_sheet.png"),
+        )
+
+    def _shapes(self, name: str, shaped: _Shaped) -> Path:
+        add_shapes(self._aside, shaped.shapes, self.path(name), shaped.head.file)
         return self.path(name)
 
 
-def _source(task: PropertyGroup, files: _HeadFiles) -> tuple[SourceFiles | BuiltInActor, list[str]]:
-    """Where the job's shapes come from, and the names of all of them."""
+def _source(task: PropertyGroup) -> Steps[_Shaped | BuiltInActor]:
+    """Where the job's shapes come from."""
     if task.cloning.donor == "ACTOR":
-        sets = tuple(sorted(task.cloning.actor_sets))
-        if not sets:
-            raise RetargetError("no set of the built-in actor is chosen, expected ARKit, visemes or expressions")
-        return BuiltInActor(sets), [name for chosen in sets for name in POSES[chosen]]
+        return BuiltInActor(tuple(sorted(task.cloning.actor_sets)))
     head = read_source_head(task)
-    names = head.key_names()
-    shapes = ShapeSet(tuple(names), head.displacements(names))
-    return SourceFiles(files.head("source", head), files.shapes("source_shapes.json", shapes, head)), names
+    return _Shaped(head, (yield from read_shapes_steps(head, head.key_names())))
 
 
-def _target(head: Head, made: Mapping[Origin, str], role: str, files: _HeadFiles) -> TargetFiles:
-    """A head that gets the shapes, made from their origins, and its corrections of them."""
+def _actor_names(actor: BuiltInActor) -> list[str]:
+    """The names of the built-in actor's shapes; RetargetError if no set of them is chosen."""
+    if not actor.sets:
+        raise RetargetError("no set of the built-in actor is chosen, expected ARKit, visemes or expressions")
+    return [name for chosen in actor.sets for name in POSES[chosen]]
+
+
+def _corrections(head: Head, made: Mapping[Origin, str]) -> ShapeSet:
+    """What the artist has corrected of a head's shapes, under the names that the job makes them by."""
     origin = cloned_origins(head)
     corrected = {made[origin[key]]: key for key in find_corrected(head) if origin[key] in made}
-    shapes = ShapeSet(tuple(corrected), head.displacements(list(corrected.values())))
-    return TargetFiles(
-        files.head(role, head),
-        files.path(f"{role}_shapes.json"),
-        corrected=files.shapes(f"{role}_corrected.json", shapes, head) if corrected else None,
-        report=files.path(f"{role}_report.json"),
-        sheet=files.path(f"{role}_sheet.png"),
-    )
+    return ShapeSet(tuple(corrected), head.displacements(list(corrected.values())))

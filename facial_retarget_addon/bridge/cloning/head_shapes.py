@@ -11,6 +11,7 @@ from ...core.arrays import FloatArray
 from ...core.errors import RetargetError
 from ...core.shapes.clone import STILL
 from ...core.shapes.shape_set import ShapeSet
+from ..background import Steps
 from ..heads import Head
 from ..key_sets import KeyTraits, free_name, key_names, shortened, write_keys
 from ..motion.expression_keys import is_shaped
@@ -18,6 +19,18 @@ from ..shape_keys import find_key
 
 Plan = Mapping[str, str]
 """Name of a shape key to write -> the shape that it gets."""
+TOGETHER = 16
+"""Shape keys that are read in one step."""
+
+
+def read_shapes_steps(head: Head, names: Sequence[str]) -> Steps[ShapeSet]:
+    """The shapes of some of a head's keys; RetargetError as `Head.displacements`."""
+    moves = np.empty((len(names), head.starts[-1], 3), np.float32)
+    for first in range(0, len(names), TOGETHER):
+        yield first / len(names), "Reading"
+        some = names[first : first + TOGETHER]
+        moves[first : first + len(some)] = head.displacements(some)
+    return ShapeSet(tuple(names), moves)
 
 
 def plan_names(head: Head, shapes: Sequence[str], existing: str) -> dict[str, str]:

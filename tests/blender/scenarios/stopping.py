@@ -91,6 +91,10 @@ WORKS = {
     ),
     "save a job": ("job", "save_job_steps", context, folder / "job.toml"),
     "load a job": ("job", "load_job_steps", context, folder / "job.toml", "Z"),
+    "save a clone job": ("cloning.clone_job", "save_clone_job_steps", context, folder / "clone.toml"),
+    "save shapes": ("cloning.shape_tables", "save_shapes_steps", "@target", folder / "shapes.json"),
+    "load shapes": ("cloning.shape_tables", "load_shapes_steps", "@target", folder / "shapes.json", "SUFFIX"),
+    "show the base mesh": ("points.base_steps", "show_base_steps", context),
     "preview": ("preview.preview", "preview_steps", context),
 }
 
