@@ -34,7 +34,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         _complain(str(error))
         return BAD_INPUT
     except (KeyboardInterrupt, Cancelled):
-        _complain("stopped; every file is as it was")
+        kept = "; what was computed is kept, and the same command goes on from there"
+        _complain(f"stopped; every file is as it was{kept if getattr(arguments, 'resume', False) else ''}")
         return INTERRUPTED
 
 
@@ -44,6 +45,11 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     run = commands.add_parser("run", help="do a job")
     run.add_argument("job", type=Path, help="the job file (TOML)")
+    run.add_argument(
+        "--resume",
+        action="store_true",
+        help="keep what is computed until the job is done, and go on from what a run that was stopped has kept",
+    )
     run.set_defaults(command=_run)
     check = commands.add_parser("check", help="say everything that is wrong with a job")
     check.add_argument("job", type=Path, help="the job file or clone job (TOML)")
@@ -160,7 +166,7 @@ def _add_face_arguments(command: argparse.ArgumentParser, required: bool) -> Non
 def _run(arguments: argparse.Namespace) -> int:
     from .files.run import run_job
 
-    _warn(run_job(arguments.job, _progress(arguments))["warnings"])
+    _warn(run_job(arguments.job, _progress(arguments), arguments.resume)["warnings"])
     return 0
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from time import perf_counter
-from typing import Any, cast
+from typing import Any, Protocol, cast
 
 import numpy as np
 
@@ -47,8 +47,25 @@ class Result:
     leveled: LevelRetargeter | None = None
 
 
+class KeptBlocks(Protocol):
+    """Blocks of retargeted frames that outlive a run, so that none is computed twice."""
+
+    def read(self, rows: slice) -> FloatArray | None:
+        """(F, Vt, 3) the frames of these rows, None where they are not kept."""
+        ...
+
+    def keep(self, rows: slice, frames: FloatArray) -> None:
+        """Keep the frames (F, Vt, 3) float32 of these rows."""
+        ...
+
+
 def retarget(
-    method: str, problem: Problem, settings: Settings, frames: FloatArray, progress: Progress = no_progress
+    method: str,
+    problem: Problem,
+    settings: Settings,
+    frames: FloatArray,
+    progress: Progress = no_progress,
+    kept: KeptBlocks | None = None,
 ) -> Result:
     """Check a problem, fit a method to its two faces, and take all frames through it.
 
@@ -57,6 +74,7 @@ def retarget(
     method : a name of `METHODS`.
     frames : (F, Vs, 3) source positions, in the source's units.
     progress : called with the share done and what is being done; raises Cancelled to stop.
+    kept : the same problem's blocks of an earlier run; receives those that are computed.
 
     Raises
     ------
@@ -77,11 +95,16 @@ def retarget(
     quality = Quality(source, target, retargeter.counterpart, SeamGaps(problem))
     measuring = 0.0
     for first in range(0, len(frames), BLOCK):
-        progress(0.4 + 0.6 * first / len(frames), f"frame {first + 1} of {len(frames)}")
-        block = np.asarray(frames[first : first + BLOCK], np.float32)
-        result[first : first + BLOCK] = gained.scale(retargeter.frames(block))
+        rows = slice(first, min(first + BLOCK, len(frames)))
+        before = None if kept is None else kept.read(rows)
+        how = "" if before is None else ", from an earlier run"
+        progress(0.4 + 0.6 * first / len(frames), f"frame {first + 1} of {len(frames)}{how}")
+        block = np.asarray(frames[rows], np.float32)
+        result[rows] = gained.scale(retargeter.frames(block)) if before is None else before
+        if kept is not None and before is None:
+            kept.keep(rows, result[rows])
         measure = perf_counter()
-        quality.add(block, result[first : first + BLOCK])
+        quality.add(block, result[rows])
         measuring += perf_counter() - measure
     progress(1.0, "done")
     report = {

@@ -12,8 +12,9 @@ from ..core.methods.settings import MapSettings
 from ..core.normal_maps.encoding import as_picture
 from ..core.normal_maps.frame_maps import FrameMaps, Tile
 from ..core.normal_maps.surface import TexturedSurface
-from .images import suffix_of, write_image
+from .images import image_bytes, suffix_of, write_image
 from .mesh_file import MeshFile
+from .whole import write_whole
 
 STEM = "normal"
 
@@ -64,11 +65,37 @@ def write_frame_maps(
     (F, V, 3) float32 the light mesh of the frames.
     """
     light = np.empty((len(frames), len(maps.surface.mesh.vertices), 3), np.float32)
-    several = len(maps.maps) > 1
     for row, frame in enumerate(frames):
         progress(row / len(frames), f"normal map {row + 1} of {len(frames)}")
         light[row], tiles = maps.frame(frame)
-        for tile, vectors in tiles.items():
-            path = folder / map_name(settings.depth, first + row, tile if several else None)
-            write_image(as_picture(vectors, settings.convention == "directx"), path, settings.depth)
+        for path, tile in _map_paths(folder, settings, maps, first + row).items():
+            write_image(_picture(tiles[tile], settings), path, settings.depth)
     return light
+
+
+def write_missing_maps(
+    folder: Path, settings: MapSettings, maps: FrameMaps, frames: FloatArray, progress: Progress = no_progress
+) -> None:
+    """Write those maps of source frames (F, Vs, 3), numbered from 1, that a folder lacks, each whole or not at all.
+
+    Raises
+    ------
+    RetargetError : if the system refuses.
+    """
+    for row, frame in enumerate(frames):
+        progress(row / len(frames), f"normal map {row + 1} of {len(frames)}")
+        paths = _map_paths(folder, settings, maps, 1 + row)
+        if not all(path.exists() for path in paths):
+            _, tiles = maps.frame(frame)
+            for path, tile in paths.items():
+                write_whole(path, image_bytes(_picture(tiles[tile], settings), settings.depth))
+
+
+def _map_paths(folder: Path, settings: MapSettings, maps: FrameMaps, number: int) -> dict[Path, Tile]:
+    """Each picture of a frame and its tile."""
+    several = len(maps.maps) > 1
+    return {folder / map_name(settings.depth, number, tile if several else None): tile for tile in maps.maps}
+
+
+def _picture(vectors: FloatArray, settings: MapSettings) -> FloatArray:
+    return as_picture(vectors, settings.convention == "directx")

@@ -26,10 +26,11 @@ from .base_mesh import read_base_mesh
 from .frames import add_frames, check_frames_place, read_frames
 from .images import suffix_of
 from .job import FaceFiles, Job, MapOutput, read_job
+from .kept_run import KeptRun, forget
 from .masks import read_mask
 from .mesh_file import MeshFile
 from .meshes import read_mesh, read_positions
-from .normal_map_files import textured, write_frame_maps
+from .normal_map_files import textured, write_missing_maps
 from .pages.report import report_json, report_page
 from .parts import read_parts
 from .points import read_points
@@ -61,14 +62,16 @@ class Findings(NamedTuple):
     warnings: list[str]
 
 
-def run_job(path: Path, progress: Progress = no_progress) -> dict[str, Any]:
-    """Do a job: nothing is written before all of it is done, and everything appears together.
+def run_job(path: Path, progress: Progress = no_progress, resume: bool = False) -> dict[str, Any]:
+    """Do a job: no output is written before all of it is done, and everything appears together.
 
     Parameters
     ----------
     path : the job file.
     progress : told how far the job is, once its input is found sound; may raise Cancelled, which leaves every file
         as it was.
+    resume : keep what is computed until the job is done, and go on from what an earlier such run has kept; see
+        `KeptRun`. What comes out is the same.
 
     Returns
     -------
@@ -84,7 +87,9 @@ def run_job(path: Path, progress: Progress = no_progress) -> dict[str, Any]:
     if wrong or inputs is None or inputs.frames is None:
         raise RetargetError("; ".join([*wrong, *_problem_faults(inputs, job)]))
     seconds = {"read": time.perf_counter() - start}
-    result = retarget(job.method, inputs.problem, job.settings, inputs.frames, progress_part(progress, 0.1, 0.8))
+    kept = KeptRun(job) if resume else None
+    moving = progress_part(progress, 0.1, 0.8)
+    result = retarget(job.method, inputs.problem, job.settings, inputs.frames, moving, kept)
     report = {"job": job.path.name, **result.report}
     report["seconds"] = seconds | report.get("seconds", {})
     baked = None
@@ -106,21 +111,32 @@ def run_job(path: Path, progress: Progress = no_progress) -> dict[str, Any]:
             page = report_page(report, inputs.problem, inputs.frames, result.frames, result.levels)
             aside.place(job.output.page).write_bytes(page)
         if job.normal_maps is not None and result.leveled is not None:
-            _add_normal_maps(aside, job.normal_maps, inputs, result.leveled, progress_part(progress, 0.9, 1.0))
+            pictures = None if kept is None else kept.pictures
+            mapping = progress_part(progress, 0.9, 1.0)
+            _add_normal_maps(aside, job.normal_maps, inputs, result.leveled, pictures, mapping)
+    forget(job)
     progress(1.0, "Done")
     return report
 
 
 def _add_normal_maps(
-    aside: Aside, output: MapOutput, inputs: Inputs, retargeter: LevelRetargeter, progress: Progress
+    aside: Aside,
+    output: MapOutput,
+    inputs: Inputs,
+    retargeter: LevelRetargeter,
+    kept: Path | None,
+    progress: Progress,
 ) -> None:
-    """Write the normal maps of all frames."""
+    """Write the normal maps of all frames; into the folder of kept ones, if there is one."""
     surface = None if output.settings.level else textured(inputs.target, "[target] neutral")
-    folder = aside.place(output.folder, replaces=suffix_of(output.settings.depth))
-    folder.mkdir()
+    replaces = suffix_of(output.settings.depth)
+    folder = kept or aside.place(output.folder, replaces)
+    folder.mkdir(exist_ok=True)
     maps = FrameMaps(retargeter, inputs.problem, surface, output.settings, progress_part(progress, 0.0, 0.2))
     frames = np.asarray(inputs.frames, np.float32)
-    write_frame_maps(folder, output.settings, maps, frames, 1, progress_part(progress, 0.2, 1.0))
+    write_missing_maps(folder, output.settings, maps, frames, progress_part(progress, 0.2, 1.0))
+    if kept is not None:
+        aside.adopt(kept, output.folder, replaces)
 
 
 def check_job(path: Path) -> Findings:

@@ -18,6 +18,7 @@ class Aside:
 
     def __init__(self) -> None:
         self._pairs: list[tuple[Path, Path]] = []
+        self._adopted: set[Path] = set()
         self.busy_with: Path | None = None
         """The output that is being written, for messages."""
 
@@ -40,6 +41,15 @@ class Aside:
         self.busy_with = path
         return aside
 
+    def adopt(self, made: Path, path: Path, replaces: str = "") -> None:
+        """Let a folder that stands beside `path` appear there with the rest; it stays where it is if that fails.
+
+        Parameters and errors as `place`.
+        """
+        check_place(path, replaces)
+        self._pairs.append((made, path))
+        self._adopted.add(made)
+
     def appear(self) -> None:
         """Put everything in its place: first all of it onto the disk, then the renames."""
         for aside, path in self._pairs:
@@ -55,6 +65,8 @@ class Aside:
     def vanish(self) -> None:
         """Remove what has not appeared."""
         for aside, _ in self._pairs:
+            if aside in self._adopted:
+                continue
             if aside.is_dir():
                 shutil.rmtree(aside, ignore_errors=True)
             else:

@@ -149,6 +149,14 @@ def test_the_same_twice(
     np.testing.assert_array_equal(again, result)
 
 
+def test_a_block_has_the_same_bits_whatever_came_before(fitted: Retargeter, frames: np.ndarray) -> None:
+    """What lets a run that was stopped go on: see `core.retarget.KeptBlocks`."""
+    fitted.frames(frames[:3])
+    after = fitted.frames(frames[3:6])
+    fitted.frames(frames[6:])
+    np.testing.assert_array_equal(fitted.frames(frames[3:6]), after)
+
+
 def test_blocks_do_not_matter(fitted: Retargeter, frames: np.ndarray, result: np.ndarray, problem: Problem) -> None:
     singly = np.concatenate([fitted.frames(frame[None]) for frame in frames])
     close(singly, result, problem.target.mesh.size, 1e-5)

@@ -50,7 +50,7 @@ def test_a_command_line_that_is_wrong(arguments, capsys):
 
 
 def test_cancelled_is_not_an_error(monkeypatch, capsys):
-    def cancel(path: Path, progress: object) -> None:
+    def cancel(path: Path, progress: object, resume: bool) -> None:
         raise Cancelled
 
     monkeypatch.setattr("facial_retarget_addon.files.run.run_job", cancel)
@@ -59,7 +59,7 @@ def test_cancelled_is_not_an_error(monkeypatch, capsys):
 
 
 def test_a_bug_keeps_its_traceback(monkeypatch):
-    def fail(path: Path, progress: object) -> None:
+    def fail(path: Path, progress: object, resume: bool) -> None:
         raise ZeroDivisionError
 
     monkeypatch.setattr("facial_retarget_addon.files.run.run_job", fail)
