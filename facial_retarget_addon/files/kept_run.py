@@ -8,10 +8,10 @@ import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import asdict
+from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
-import scipy
 
 from ..core.arrays import FloatArray
 from ..core.errors import RetargetError
@@ -108,7 +108,7 @@ def made_with(job: Job) -> dict[str, str]:
     values: dict[str, object] = {
         "this program": _fingerprint(sorted(_CODE.rglob("*.py"))),
         "NumPy": np.__version__,
-        "SciPy": scipy.__version__,
+        "SciPy": version("scipy"),
         "method": job.method,
         "[source] range": job.chosen,
         "the names of the examples": [example.name for example in job.examples],
