@@ -36,7 +36,7 @@ class Aside:
             but such files: replacing it would lose them.
         """
         check_place(path, replaces)
-        aside = path.parent / f".{path.stem}-{secrets.token_hex(4)}-partial{path.suffix}"
+        aside = _beside(path, "partial")
         self._pairs.append((aside, path))
         self.busy_with = path
         return aside
@@ -51,26 +51,40 @@ class Aside:
         self._adopted.add(made)
 
     def appear(self) -> None:
-        """Put everything in its place: first all of it onto the disk, then the renames."""
+        """Put everything in its place: first all of it onto the disk, then the renames, all of them or none."""
         for aside, path in self._pairs:
             self.busy_with = path
             for part in aside.iterdir() if aside.is_dir() else [aside]:
                 _flush(part)
-        while self._pairs:
-            aside, path = self._pairs[0]
-            self.busy_with = path
-            _replace(aside, path)
-            del self._pairs[0]
+        done: list[tuple[Path, Path]] = []
+        old: list[Path] = []
+        try:
+            for aside, path in self._pairs:
+                self.busy_with = path
+                # What is replaced steps aside until everything stands; a file that comes last is replaced in one go.
+                if path.is_dir() or (path.exists() and aside != self._pairs[-1][0]):
+                    old.append(_beside(path, "old"))
+                    done += _renamed(path, old[-1])
+                done += _renamed(aside, path)
+        except BaseException:
+            for start, end in reversed(done):
+                os.rename(end, start)
+            raise
+        self._pairs.clear()
+        for place in old:
+            _remove(place)
+
+    def named(self, text: str) -> str:
+        """A message with the real places in it: a writer that was given one beside them knows no other."""
+        for aside, path in self._pairs:
+            text = text.replace(str(aside), str(path))
+        return text
 
     def vanish(self) -> None:
         """Remove what has not appeared."""
         for aside, _ in self._pairs:
-            if aside in self._adopted:
-                continue
-            if aside.is_dir():
-                shutil.rmtree(aside, ignore_errors=True)
-            else:
-                aside.unlink(missing_ok=True)
+            if aside not in self._adopted:
+                _remove(aside)
 
 
 @contextmanager
@@ -117,6 +131,8 @@ def _told(aside: Aside) -> Iterator[None]:
     """What the system refuses, in words."""
     try:
         yield
+    except RetargetError as error:
+        raise RetargetError(aside.named(str(error))) from error
     except OSError as error:
         raise RetargetError(f"{aside.busy_with or 'the output'} cannot be written: {_reason(error)}") from error
 
@@ -190,19 +206,22 @@ def _flush(path: Path) -> None:
         os.fsync(file.fileno())
 
 
-def _replace(aside: Path, path: Path) -> None:
-    """Rename over what is there; a folder of old frames steps aside until the new one stands."""
-    if not path.is_dir():
-        os.replace(aside, path)
-        return
-    old = path.parent / f".{path.name}.{secrets.token_hex(4)}.old"
-    os.rename(path, old)
-    try:
-        os.rename(aside, path)
-    except BaseException:
-        os.rename(old, path)
-        raise
-    shutil.rmtree(old, ignore_errors=True)
+def _beside(path: Path, what: str) -> Path:
+    """A hidden place beside another; its name is no longer than the system allows wherever that of `path` is not."""
+    return path.parent / f".{path.stem[:40]}-{secrets.token_hex(4)}-{what}{path.suffix}"
+
+
+def _renamed(start: Path, end: Path) -> list[tuple[Path, Path]]:
+    """Rename, over a file that is there; returns what was done."""
+    (os.rename if start.is_dir() else os.replace)(start, end)
+    return [(start, end)]
+
+
+def _remove(place: Path) -> None:
+    if place.is_dir():
+        shutil.rmtree(place, ignore_errors=True)
+    else:
+        place.unlink(missing_ok=True)
 
 
 def _reason(error: OSError) -> str:

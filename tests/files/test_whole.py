@@ -90,6 +90,36 @@ def test_a_folder_comes_back_when_the_new_one_cannot_take_its_place(old, listing
     assert listing() == before
 
 
+@pytest.mark.parametrize("refused", [1, 2, 3, 4])
+def test_a_rename_that_is_refused_takes_the_earlier_ones_back(old, listing, monkeypatch, refused):
+    """Whichever it is of: the report aside, the new report, the folder aside, the new folder."""
+    before, renames = listing(), []
+
+    def counted(rename):
+        def counting(source, target) -> None:
+            renames.append(source)
+            if len(renames) == refused:
+                raise OSError(errno.EBUSY, "Device or resource busy")
+            rename(source, target)
+
+        return counting
+
+    monkeypatch.setattr(os, "rename", counted(os.rename))
+    monkeypatch.setattr(os, "replace", counted(os.replace))
+    with pytest.raises(RetargetError, match=r"(take|report\.json) cannot be written: Device or resource busy"):
+        write_all(old)
+    assert len(renames) >= refused
+    assert listing() == before
+
+
+def test_a_writer_that_got_a_place_beside_names_the_real_one(old, listing):
+    before = listing()
+    with pytest.raises(RetargetError) as told, written_whole() as aside:
+        write_whole(aside.place(old / "new.json") / "within", b"new")
+    assert str(told.value) == f"{old / 'new.json' / 'within'} cannot be written: there is no folder {old / 'new.json'}"
+    assert listing() == before
+
+
 def test_a_folder_with_other_things_is_never_replaced(old, listing):
     (old / "take" / "diary.txt").write_text("dear diary")
     before = listing()
@@ -111,6 +141,16 @@ def test_a_folder_that_is_not_there(tmp_path):
 def test_a_name_that_is_too_long(tmp_path):
     with pytest.raises(RetargetError, match="cannot be written"):
         write_whole(tmp_path / ("x" * 300), b"new")
+
+
+@pytest.mark.parametrize("name", [251 * "x" + ".txt", 125 * "ä" + ".txt", "it's \"two\" words ä.txt"])
+def test_every_name_that_the_system_allows(tmp_path, listing, name):
+    for content in (b"old", b"new"):
+        write_whole(tmp_path / name, content)
+    with written_whole() as aside:
+        aside.place(tmp_path / name).write_bytes(b"newest")
+        aside.place(tmp_path / "b").write_bytes(b"b")
+    assert listing() == {name: b"newest", "b": b"b"}
 
 
 def test_new_files_have_ordinary_permissions(tmp_path):
