@@ -202,8 +202,9 @@ def _write_folder(path: Path, frames: FrameBlocks, corners: Corners, fps: float)
     path.mkdir()
     words = [b"%d" % v for v in (corners[1] + 1).tolist()] if corners else []
     every = (frame for block in _blocks(frames, "<f4") for frame in block)
+    digits = max(4, len(str(len(frames))))  # so that any order of names is that of the frames
     for number, frame in enumerate(every, start=1):
-        with open(path / f"frame_{number:04d}.obj", "xb") as file:
+        with open(path / f"frame_{number:0{digits}d}.obj", "xb") as file:
             write_obj_vertices(file, frame)
             if corners:
                 write_obj_faces(file, corners[0], words)
