@@ -143,7 +143,7 @@ def test_a_name_that_is_too_long(tmp_path):
         write_whole(tmp_path / ("x" * 300), b"new")
 
 
-@pytest.mark.parametrize("name", [251 * "x" + ".txt", 125 * "ä" + ".txt", "it's \"two\" words ä.txt"])
+@pytest.mark.parametrize("name", [251 * "x" + ".txt", 125 * "ä" + ".txt", 'it\'s "two" words ä.txt'])
 def test_every_name_that_the_system_allows(tmp_path, listing, name):
     for content in (b"old", b"new"):
         write_whole(tmp_path / name, content)
