@@ -26,10 +26,11 @@ from facial_retarget_addon.cli import main
 from facial_retarget_addon.core import retarget as core_retarget
 from facial_retarget_addon.core.arrays import Progress
 from facial_retarget_addon.core.methods.base import Retargeter
-from facial_retarget_addon.core.methods.settings import HierarchicalSettings, MapSettings, Settings
+from facial_retarget_addon.core.methods.settings import BakeSettings, HierarchicalSettings, MapSettings, Settings
 from facial_retarget_addon.core.mpeg4.conversions import stream_of_values
 from facial_retarget_addon.core.problem import Problem
 from facial_retarget_addon.core.shapes.shape_set import ShapeSet
+from facial_retarget_addon.files.bake_output import BakeOutput
 from facial_retarget_addon.files.frames import read_frames, write_frames
 from facial_retarget_addon.files.job import FaceFiles, Job, MapOutput, OutputFiles, write_job
 from facial_retarget_addon.files.mesh_file import MeshFile
@@ -45,6 +46,7 @@ from .test_images import png_values
 resource = pytest.importorskip("resource", reason="limits, users and mounts are those of POSIX")
 
 FAPS = 68
+MANY = 10_000
 STEM = "out"
 
 
@@ -57,15 +59,16 @@ class Kit(NamedTuple):
     def face(self) -> list[str]:
         return ["--face", str(self.folder / "actor.obj"), "--points", str(self.folder / "actor.json")]
 
-    def job(self, frames: str, output: OutputFiles, maps: MapOutput | None = None, level: int = 1) -> Path:
+    def job(
+        self, frames: str, output: OutputFiles, maps: MapOutput | None = None, bake: BakeOutput | None = None
+    ) -> Path:
         """A job over the two domes."""
         faces = {name: FaceFiles(self.folder / f"{name}.obj", self.folder / f"{name}_points.json") for name in SIDES}
         source = replace(faces["source"], frames=self.folder / frames)
         path = self.folder / "job.toml"
-        settings = HierarchicalSettings(levels=level)
-        write_job(
-            Job("hierarchical", source, faces["target"], (), settings, output, None, path, normal_maps=maps), path
-        )
+        settings = HierarchicalSettings(levels=1)
+        given = ("hierarchical", source, faces["target"], (), settings, output, None, path)
+        write_job(Job(*given, normal_maps=maps, bake=bake), path)
         return path
 
 
@@ -101,6 +104,10 @@ def kit() -> Iterator[Kit]:
         write_mesh(dome(side, 1.0 + number), folder / f"{name}.obj")
         write_points(dome_points(side), folder / f"{name}_points.json")
     write_frames(wave(4), folder / "moving.npz")
+    target = dome(SIDES["target"], 2.0)
+    rig = ShapeSet.of_positions(target.mesh.vertices, {"bump": bump(target.mesh, 0.0, 0.1)})
+    with written_whole() as aside:
+        add_shapes(aside, rig, folder / "rig.npz", target)
     actor = demo.actor(vertices=1500)
     neutral = MeshFile(actor.face.mesh, actor.counts, actor.corners, actor.uvs[actor.corners])
     write_mesh(neutral, folder / "actor.obj")
@@ -130,6 +137,19 @@ def _run(suffix: str, **others: str) -> Command:
             MapOutput(out / f"{stem}_maps", MapSettings(pixels=64, depth=others["maps"])) if "maps" in others else None
         )
         return ["run", kit.job("moving.npz", OutputFiles(out / f"{stem}{suffix}", **places), maps)]
+
+    return command
+
+
+def _bake(kind: str, *more: str) -> Command:
+    def command(kit: Kit, out: Path, stem: str) -> list[object]:
+        shapes = f"_shapes{'.npz' if kind == 'compact' else ''}"
+        residual = 0 if kind == "compact" else 2
+        settings = BakeSettings(kind=kind, residual=residual)
+        curves = out / f"{stem}_curves.csv", out / f"{stem}_curves.json"
+        rig = None if kind == "compact" else kit.folder / "rig.npz"
+        bake = BakeOutput(settings, curves, out / f"{stem}{shapes}", rig)
+        return ["run", kit.job("moving.npz", OutputFiles(out / f"{stem}.npz"), bake=bake), *more]
 
     return command
 
@@ -177,6 +197,8 @@ COMMANDS: dict[str, Command] = {
     "run maps png8": _run(".npz", maps="png8"),
     "run maps png16": _run(".npz", maps="png16"),
     "run maps exr": _run(".npz", maps="exr"),
+    "run bake compact": _bake("compact"),
+    "run bake rig folder": _bake("rig"),
     "fap npz report page": _fap(".npz"),
     "fap pc2": _fap(".pc2"),
     "fap mdd": _fap(".mdd"),
@@ -294,6 +316,22 @@ def test_a_full_disk(command: Command, kit: Kit, scarce: Scarce, capsys: pytest.
             status = main(arguments)
         refused(capsys, status, str(scarce.folder / STEM), f"cannot be written: {scarce.words}")
         assert held(scarce.folder) == before
+
+
+def test_what_a_full_disk_has_stopped_goes_on_once_there_is_room(
+    kit: Kit, scarce: Scarce, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The frames that were kept stay whole, or there are none of them."""
+    arguments = [*line(COMMANDS["run maps exr"], kit, scarce.folder), "--resume"]
+    for left in (0, 10_000, 30_000):
+        with scarce.left(left):
+            status = main(arguments)
+        refused(capsys, status, str(scarce.folder / STEM), "cannot be written")
+        assert not [name for name in held(scarce.folder) if not Path(name).parts[0].endswith(".unfinished")]
+    assert main(arguments) == 0
+    resumed = held(scarce.folder)
+    assert main(arguments[:-1]) == 0
+    assert held(scarce.folder) == resumed
 
 
 @pytest.mark.parametrize("left", [0, 20_000, 300_000])
@@ -466,6 +504,37 @@ def test_a_job_of_one_frame_and_one_that_does_not_move(
         np.testing.assert_array_equal(picture, pictures[0])
 
 
+@pytest.mark.parametrize("frames", [1, 3, MANY])
+@pytest.mark.parametrize("moves", [0.0, 0.1])
+@pytest.mark.parametrize("kind", ["compact", "rig"])
+def test_bakes_of_few_frames_of_many_and_of_none_that_moves(
+    kind: str, moves: float, frames: int, kit: Kit, tmp_path: Path
+) -> None:
+    """Curves times shapes are the frames, within the tolerance; a face that is still has curves that are 0, or none."""
+    write_frames(np.resize(wave(min(frames, 50), moves), (frames, SIDES["source"] ** 2, 3)), kit.folder / "few.npz")
+    out, report, shapes = tmp_path / "out.npz", tmp_path / "report.json", tmp_path / "shapes.npz"
+    curves = tmp_path / "curves.csv", tmp_path / "curves.json"
+    compact = kind == "compact"
+    settings = BakeSettings(kind=kind, tolerance=0.01)
+    bake = BakeOutput(settings, curves, shapes if compact else None, None if compact else kit.folder / "rig.npz")
+    assert main(["run", str(kit.job("few.npz", OutputFiles(out, report), bake=bake)), "--quiet"]) == 0
+    said = figures(report)["bake"]
+    rows = [line.split(",") for line in curves[0].read_text().splitlines()]
+    values = np.array(rows[1:], float)
+    assert len(values) == frames
+    json.loads(curves[1].read_text(), parse_constant=no_constant)
+    if not moves:
+        assert said["worst"] < 1e-6
+        assert not values[:, -said["keys"] :].any() if said["keys"] else True
+    elif compact:
+        target = dome(SIDES["target"], 2.0).mesh
+        keys = read_shapes(shapes, target)
+        columns = [rows[0].index(name) for name in keys.names]
+        played = target.vertices + np.einsum("fk,kvi->fvi", values[:, columns], keys.displacements)
+        assert np.abs(played - read_frames(out, len(target.vertices))).max() < 0.1
+        assert 1 <= said["keys"] <= 3
+
+
 @pytest.mark.parametrize("values", [np.zeros((3, FAPS)), np.zeros((1, FAPS)), np.eye(1, FAPS, 2) * 500])
 def test_a_take_of_one_frame_and_one_that_does_not_move(values: np.ndarray, kit: Kit, tmp_path: Path) -> None:
     """Played, and measured again."""
@@ -494,9 +563,6 @@ def test_a_shape_that_moves_nothing_is_cloned_as_one(kit: Kit, tmp_path: Path) -
     (made,) = read_shapes(tmp_path / "out.npz", actor.mesh).displacements
     assert np.abs(made).max() < 1e-6
     figures(tmp_path / "out.report.json")
-
-
-MANY = 10_000
 
 
 @pytest.mark.parametrize("suffix", [".npz", ".pc2", ".mdd", ""])
