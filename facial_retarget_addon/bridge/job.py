@@ -23,13 +23,14 @@ from ..files.run import Inputs, read_inputs
 from ..files.whole import Aside, appear_whole, written_aside
 from .background import Steps, in_thread, part
 from .bakes.frames import write_frames
+from .bakes.job_bake import JobBake, show_job_bake
 from .beside import Beside
 from .examples.examples import write_example
 from .gains import write_gains
 from .heads import write_named_parts
 from .maps.map_output import map_output, show_map_output
 from .meshes import new_face
-from .performance import read_frames
+from .performance import read_frames, scene_rate
 from .points.base_object import show_triangles
 from .points.points import write_points
 from .settings import read_task_settings, write_task_settings
@@ -46,7 +47,8 @@ def save_job_steps(context: Context, path: Path) -> Steps[None]:
     task = context.scene.facial_retarget
     problem, settings, heads = read_problem(context), read_task_settings(task), read_heads(context)
     frames = yield from part(read_frames(context, task.source, frame_times(context)), 0.0, 0.8)
-    maps = map_output(task)
+    maps, bake = map_output(task), JobBake(task, heads[1])
+    rate = scene_rate(context.scene) / task.bake.step
     method, wanted = task.method, [_chosen(file) for file in (task.output, task.report, task.page)]
 
     def write(progress: Progress) -> Aside:
@@ -69,6 +71,8 @@ def save_job_steps(context: Context, path: Path) -> Steps[None]:
                     files.mask(name, number, mask) for number, (name, mask) in enumerate(problem.gains.masks.items(), 1)
                 ),
                 maps,
+                bake.add(aside, files.path),
+                fps=rate,
             )
             write_job(job, aside.place(path))
             progress(1.0, "Writing")
@@ -143,6 +147,7 @@ def load_job_steps(context: Context, path: Path, up: str) -> Steps[None]:
         "" if file is None else str(file) for file in (job.output.frames, job.output.report, job.output.page)
     )
     show_map_output(task.normal_maps, job.normal_maps)
+    show_job_bake(task, task.target, job.bake, inputs.rig, inputs.target)
     task.base = None if problem.base is None else show_triangles(task.source, problem.base)
     context.view_layer.update()
 

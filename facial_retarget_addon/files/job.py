@@ -13,7 +13,7 @@ from .documents import Table, fault_sentence, read_toml
 from .frame_range import EVERY_FRAME, FrameRange
 from .frames import FPS
 from .job_values import check_method, read_method_settings, read_optional_path, read_path, relative, toml
-from .motion.rates import FASTEST, SLOWEST
+from .motion.rates import FASTEST
 from .whole import overwritten, write_whole
 
 VERSION = 1
@@ -169,8 +169,8 @@ def _read_face(table: Table, folder: Path, optional: tuple[str, ...], required: 
 def _read_timing(source: Table) -> tuple[FrameRange, float]:
     """Which frames of the source are wanted, and how many there are a second."""
     text, fps = source.optional("range", str), source.optional("fps", float)
-    if fps is not None and not SLOWEST <= fps <= FASTEST:
-        source.wrong.append(f"{source.where} fps = {fps:g}, expected a number from {SLOWEST:g} to {FASTEST:g}")
+    if fps is not None and not 0 < fps <= FASTEST:
+        source.wrong.append(f"{source.where} fps = {fps:g}, expected a number above 0, at most {FASTEST:g}")
     try:
         chosen = EVERY_FRAME if text is None else FrameRange.of_text(text)
     except RetargetError as error:

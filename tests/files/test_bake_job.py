@@ -181,7 +181,7 @@ BAKE = '[bake]\nkind = "compact"\nshapes = "keys.npz"\ncurves = ["c.csv"]'
         ("[bake]\n", "[bake]\nranges = {a = [1, 0]}\n", "[bake] ranges 'a' = [1, 0], expected a lowest and a greater"),
         ('"keys.npz"', '"source.obj"', "[bake] shapes and [source] neutral are one file"),
         ("[bake]", '[source]\nrange = "9:2"\n[bake]', "[source] range: frames are '9:2', expected a first one from 1"),
-        ("[bake]", "[source]\nfps = 0\n[bake]", "[source] fps = 0, expected a number from 1 to 10000"),
+        ("[bake]", "[source]\nfps = 0\n[bake]", "[source] fps = 0, expected a number above 0, at most 10000"),
     ],
 )
 def test_a_bake_that_is_wrong(tmp_path, old, new, expected):
