@@ -7,7 +7,14 @@ from dataclasses import dataclass, field, fields
 from pathlib import Path
 
 from ..core.errors import RetargetError
-from ..core.methods.settings import MotionCloningSettings, Settings
+from ..core.methods.settings import (
+    LEVELED,
+    LevelSettings,
+    MotionCloningSettings,
+    Settings,
+    WrinkleSettings,
+    read_values,
+)
 from ..core.shapes.prepare import Preparation
 from ..core.shapes.sides import SideNames
 from .documents import Table, fault_sentence, read_toml
@@ -26,6 +33,8 @@ from .whole import overwritten, write_whole
 VERSION = 1
 METHOD = "motion_cloning"
 """The method where the job names none."""
+OPTIONAL_OUTPUTS = ("report", "page", "sheet", "wrinkles")
+"""What a target may have beside its shapes."""
 
 
 @dataclass(frozen=True)
@@ -38,6 +47,7 @@ class TargetFiles:
     shapes : where its shapes go, see `add_shapes`.
     corrected : shapes of it that the artist corrected, see `read_shapes`; the others learn from them.
     report, page, sheet : where figures (JSON), pictures with figures (HTML) and one contact sheet (PNG) go.
+    wrinkles : the folder that a wrinkle kit for them becomes.
     """
 
     face: FaceFiles
@@ -46,6 +56,7 @@ class TargetFiles:
     report: Path | None = None
     page: Path | None = None
     sheet: Path | None = None
+    wrinkles: Path | None = None
 
 
 @dataclass(frozen=True)
@@ -94,6 +105,7 @@ class CloneJob:
     targets : the heads that get them.
     preparation : which shapes, and what is made of them before they go over.
     path : the job file itself, None for a job of the command line's own.
+    wrinkle_kit : how wrinkle kits are made, for targets that get one.
     """
 
     source: SourceFiles | BuiltInActor
@@ -102,6 +114,7 @@ class CloneJob:
     method: str = METHOD
     settings: Settings = field(default_factory=MotionCloningSettings)
     path: Path | None = None
+    wrinkle_kit: WrinkleSettings = field(default_factory=WrinkleSettings)
 
     def inputs(self) -> dict[str, Path]:
         """What is read: how the job file names it -> its path."""
@@ -118,7 +131,7 @@ class CloneJob:
         named = {
             f"{_where(number)} {key}": getattr(target, key)
             for number, target in enumerate(self.targets, start=1)
-            for key in ("shapes", "report", "page", "sheet")
+            for key in ("shapes", *OPTIONAL_OUTPUTS)
         }
         return {name: path for name, path in named.items() if path is not None}
 
@@ -157,7 +170,9 @@ def read_clone_job(path: Path) -> CloneJob:
         method=method,
         settings=read_method_settings(method, root),
         path=path,
+        wrinkle_kit=_read_wrinkle_kit(root),
     )
+    wrong += _kit_faults(job)
     source.no_more()
     root.no_more()
     if not wrong:
@@ -187,12 +202,35 @@ def _read_targets(root: Table, folder: Path) -> tuple[TargetFiles, ...]:
     faults = len(root.wrong)
     for number, values in enumerate(root.get("targets", list), start=1):
         table = Table(values, _where(number), root.wrong)
-        optional = {key: read_optional_path(table, key, folder) for key in ("corrected", "report", "page", "sheet")}
+        optional = {key: read_optional_path(table, key, folder) for key in ("corrected", *OPTIONAL_OUTPUTS)}
         targets.append(TargetFiles(_read_face(table, folder), read_path(table, "shapes", folder), **optional))
         table.no_more()
     if not targets and len(root.wrong) == faults:
         root.wrong.append("targets is empty, expected at least one [[targets]]")
     return tuple(targets)
+
+
+def _read_wrinkle_kit(root: Table) -> WrinkleSettings:
+    try:
+        return read_values(WrinkleSettings, root.optional("wrinkle_kit", dict) or {}, "[wrinkle_kit]")
+    except RetargetError as error:
+        root.wrong.append(str(error))
+        return WrinkleSettings()
+
+
+def _kit_faults(job: CloneJob) -> list[str]:
+    """What the method cannot do for the wrinkle kits."""
+    named = [f"{_where(number)} wrinkles" for number, target in enumerate(job.targets, start=1) if target.wrinkles]
+    if not named:
+        return []
+    if not isinstance(job.settings, LevelSettings):
+        return [f"{named[0]} needs a method with levels, expected one of {', '.join(LEVELED)}, not {job.method}"]
+    if job.wrinkle_kit.level > job.settings.levels:
+        return [
+            f"[wrinkle_kit] level = {job.wrinkle_kit.level}, expected one of the {job.settings.levels} in [settings], "
+            "or 0"
+        ]
+    return []
 
 
 def _read_preparation(root: Table) -> Preparation:
@@ -243,8 +281,10 @@ def write_clone_job(job: CloneJob, path: Path) -> None:
         lines += _path_lines({"shapes": job.source.shapes} | _face_files(job.source.face), folder)
     lines += _preparation_lines(job.preparation)
     for target in job.targets:
-        own = {key: getattr(target, key) for key in ("shapes", "corrected", "report", "page", "sheet")}
+        own = {key: getattr(target, key) for key in ("shapes", "corrected", *OPTIONAL_OUTPUTS)}
         lines += ["", "[[targets]]", *_path_lines(_face_files(target.face) | own, folder)]
+    kit = [f"{f.name} = {toml(getattr(job.wrinkle_kit, f.name))}" for f in fields(WrinkleSettings)]
+    lines += ["", "[wrinkle_kit]", *kit] if any(target.wrinkles for target in job.targets) else []
     lines += ["", "[settings]"]
     lines += [f"{field.name} = {toml(getattr(job.settings, field.name))}" for field in fields(job.settings)]
     write_whole(path, ("\n".join(lines) + "\n").encode())

@@ -12,6 +12,9 @@ from ..core.arrays import FloatArray, Progress, no_progress, progress_part
 from ..core.checks import faults, warnings
 from ..core.errors import RetargetError
 from ..core.methods.settings import Settings
+from ..core.normal_maps.frame_maps import FrameMaps
+from ..core.normal_maps.key_poses import retargeted_poses
+from ..core.normal_maps.wrinkle_kit import fit_wrinkle_kit
 from ..core.problem import Face, Problem
 from ..core.shapes.clone import ClonedShapes, clone_shapes
 from ..core.shapes.combinations import combined, complete
@@ -23,12 +26,14 @@ from .clone_job import BuiltInActor, CloneJob, TargetFiles, read_clone_job
 from .job import FaceFiles
 from .mesh_file import MeshFile
 from .meshes import read_mesh
+from .normal_map_files import textured
 from .pages.clone_page import KeyPictures, clone_page, clone_sheet, key_pictures, sheet_rows
 from .pages.pictures import Image
 from .pages.report import report_json
 from .run import Findings, Reading
 from .shape_files import add_shapes, check_shapes_place, read_shapes
 from .whole import Aside, check_place, overwritten, written_whole
+from .wrinkle_kit_files import check_kit_place, kit_folder, write_wrinkle_kit
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,6 +118,9 @@ def run_clone_job(
                 names = inputs.prepared.wanted
                 keys = sheet_rows(names, pictures, target.face, seen, progress_part(part, 0.7, 1.0))
                 _add_pictures(aside, target.files, report, keys)
+            if target.files.wrinkles is not None:
+                kit = _add_wrinkle_kit(aside, job, inputs, target, wanted, progress_part(part, 0.5, 0.7))
+                report["wrinkle_kit"] = kit
             if target.files.report is not None:
                 aside.place(target.files.report).write_bytes(report_json(report))
             reports.append(report)
@@ -131,6 +139,24 @@ def _clone(job: CloneJob, inputs: _Inputs, target: _Target, progress: Progress) 
         )
     except RetargetError as error:
         raise RetargetError(f"{target.name}: {error}") from error
+
+
+def _add_wrinkle_kit(
+    aside: Aside, job: CloneJob, inputs: _Inputs, target: _Target, cloned: ClonedShapes, progress: Progress
+) -> dict[str, Any]:
+    """Write the wrinkle kit of a target's shapes; returns what the report says of it."""
+    settings, folder = job.wrinkle_kit, target.files.wrinkles
+    if folder is None or cloned.leveled is None:
+        raise RetargetError(f"{target.name}: method {job.method!r} has no levels, expected one for a wrinkle kit")
+    problem, prepared = Problem(inputs.source, target.face), inputs.prepared
+    surface = None if settings.level else textured(target.mesh_file, target.name)
+    maps = FrameMaps(cloned.leveled, problem, surface, settings, progress_part(progress, 0.0, 0.3))
+    names = [name for name in prepared.wanted if name not in cloned.without_counterpart]
+    rest = inputs.source.mesh.vertices
+    posed = retargeted_poses(maps, rest, prepared.shapes, names, prepared.correctives)
+    kit = fit_wrinkle_kit(maps, posed, settings.least, progress_part(progress, 0.3, 0.7))
+    write_wrinkle_kit(kit_folder(aside, folder), settings, kit, target.name, progress_part(progress, 0.7, 1.0))
+    return kit.report()
 
 
 def _seen(shapes: ShapeSet, prepared: PreparedShapes) -> FloatArray:
@@ -180,7 +206,7 @@ def _read(job: CloneJob, make_actor: MakeActor) -> tuple[_Inputs | None, list[st
     reading = Reading()
     reading.wrong += overwritten(job.inputs(), job.outputs())
     source, prepared = _read_source(job, reading, make_actor)
-    targets = [_read_target(files, reading) for files in job.targets]
+    targets = [_read_target(files, job.wrinkle_kit.level, reading) for files in job.targets]
     whole = [target for target in targets if target is not None]
     if source is not None and prepared is not None and not reading.wrong:
         for target in whole:
@@ -206,12 +232,16 @@ def _read_source(job: CloneJob, reading: Reading, make_actor: MakeActor) -> tupl
     return face, reading.attempt(prepare_shapes, shapes, job.preparation, share)
 
 
-def _read_target(files: TargetFiles, reading: Reading) -> _Target | None:
+def _read_target(files: TargetFiles, level: int, reading: Reading) -> _Target | None:
     mesh_file, face = _read_face(files.face, reading)
     reading.attempt(check_shapes_place, files.shapes)
     for place in (files.report, files.page, files.sheet):
         if place is not None:
             reading.attempt(check_place, place)
+    if files.wrinkles is not None:
+        reading.attempt(check_kit_place, files.wrinkles)
+        if mesh_file is not None and not level:
+            reading.attempt(textured, mesh_file, str(files.face.neutral))
     if mesh_file is None or face is None:
         return None
     corrected = None

@@ -32,7 +32,7 @@ def suffix_of(depth: str) -> str:
 
 
 def image_bytes(picture: FloatArray, depth: str) -> bytes:
-    """A picture (H, W, 3) of values from 0 to 1, first row on top, as a file of one of `DEPTHS`.
+    """A picture (H, W, 3), or (H, W, 4) with alpha, of values from 0 to 1, first row on top, as a file of `DEPTHS`.
 
     Raises
     ------
@@ -61,7 +61,7 @@ def write_image(picture: FloatArray, path: Path, depth: str) -> None:
 
 
 def png_bytes(image: npt.NDArray[np.uint8] | npt.NDArray[np.uint16]) -> bytes:
-    """An image (H, W, 3) of uint8 or uint16, first row on top, as a PNG file (RGB)."""
+    """An image (H, W, 3 or 4) of uint8 or uint16, first row on top, as a PNG file (RGB or RGBA)."""
     height, width, channels = image.shape
     depth = 8 * image.dtype.itemsize
     line = width * channels * image.dtype.itemsize
@@ -71,7 +71,7 @@ def png_bytes(image: npt.NDArray[np.uint8] | npt.NDArray[np.uint16]) -> bytes:
         # Each line as its difference from the one above, the format's second filter: half the size for smooth maps.
         lines[1:, 1:] -= lines[:-1, 1:].copy()
         lines[1:, 0] = 2
-    header = struct.pack(">IIBBBBB", width, height, depth, 2, 0, 0, 0)
+    header = struct.pack(">IIBBBBB", width, height, depth, 2 if channels == 3 else 6, 0, 0, 0)
     chunks = ((b"IHDR", header), (b"IDAT", zlib.compress(lines.tobytes(), 6)), (b"IEND", b""))
     return b"\x89PNG\r\n\x1a\n" + b"".join(
         struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data)) for kind, data in chunks
@@ -79,10 +79,11 @@ def png_bytes(image: npt.NDArray[np.uint8] | npt.NDArray[np.uint16]) -> bytes:
 
 
 def exr_bytes(picture: FloatArray) -> bytes:
-    """A picture (H, W, 3), first row on top, as an OpenEXR file: scan lines of 32-bit floats, ZIP-compressed."""
-    height, width, _ = picture.shape
+    """A picture (H, W, 3 or 4), first row on top, as an OpenEXR file: scan lines of 32-bit floats, ZIP-compressed."""
+    height, width, count = picture.shape
     window = struct.pack("<4i", 0, 0, width - 1, height - 1)
-    channels = b"".join(name + b"\0" + struct.pack("<iBxxxii", 2, 0, 1, 1) for name in (b"B", b"G", b"R")) + b"\0"
+    names = (b"A", b"B", b"G", b"R")[-count:]
+    channels = b"".join(name + b"\0" + struct.pack("<iBxxxii", 2, 0, 1, 1) for name in names) + b"\0"
     header = b"".join(
         name + b"\0" + kind + b"\0" + struct.pack("<i", len(value)) + value
         for name, kind, value in (

@@ -16,6 +16,9 @@ from ..core.errors import RetargetError
 FLUSHED = 8
 """Files that are flushed at once."""
 
+Suffixes = str | tuple[str, ...]
+"""One suffix of files or several, in small letters with their dots; "" for none."""
+
 
 class Aside:
     """Places beside the real ones. What was written there appears together, or goes away together."""
@@ -26,13 +29,13 @@ class Aside:
         self.busy_with: Path | None = None
         """The output that is being written, for messages."""
 
-    def place(self, path: Path, replaces: str = "") -> Path:
+    def place(self, path: Path, replaces: Suffixes = "") -> Path:
         """A place in the same folder (same file system, same suffix) to write `path` at.
 
         Parameters
         ----------
         path : where the file or folder shall appear.
-        replaces : for a folder, the suffix of the files that it may hold now and that go with it.
+        replaces : for a folder, the suffixes of the files that it may hold now and that go with it.
 
         Raises
         ------
@@ -148,7 +151,7 @@ def write_whole(path: Path, content: bytes) -> None:
         file.write(content)
 
 
-def check_place(path: Path, replaces: str = "") -> None:
+def check_place(path: Path, replaces: Suffixes = "") -> None:
     """RetargetError if `Aside.place` would refuse."""
     try:
         if not path.parent.is_dir():
@@ -195,14 +198,15 @@ def overwritten(inputs: Mapping[str, Path], outputs: Mapping[str, Path]) -> list
     return wrong
 
 
-def _check_replaceable(folder: Path, replaces: str) -> None:
+def _check_replaceable(folder: Path, replaces: Suffixes) -> None:
     if not replaces:
         raise RetargetError(f"{folder} cannot be written: it is a folder, expected a file")
-    foreign = sorted(entry.name for entry in folder.iterdir() if entry.suffix.lower() != replaces)
+    suffixes = (replaces,) if isinstance(replaces, str) else replaces
+    foreign = sorted(entry.name for entry in folder.iterdir() if entry.suffix.lower() not in suffixes)
     if foreign:
         raise RetargetError(
-            f"folder {folder} holds {foreign[0]!r}; expected a new folder, or one that holds {replaces} files only, "
-            "since it is replaced"
+            f"folder {folder} holds {foreign[0]!r}; expected a new folder, or one that holds {' and '.join(suffixes)} "
+            "files only, since it is replaced"
         )
 
 

@@ -16,7 +16,7 @@ from facial_retarget_addon.core.methods.settings import HierarchicalSettings, Ma
 from facial_retarget_addon.core.normal_maps.chart import disc_chart
 from facial_retarget_addon.core.normal_maps.frame_maps import FrameMaps
 from facial_retarget_addon.core.normal_maps.normal_map import fit_normal_map
-from facial_retarget_addon.core.normal_maps.strain import compression, wrinkle_mask
+from facial_retarget_addon.core.normal_maps.strain import ramp, strain
 from facial_retarget_addon.core.normal_maps.surface import TexturedSurface
 from facial_retarget_addon.core.normal_maps.tangents import TangentSpace
 from facial_retarget_addon.core.normal_maps.texels import margin, rasterise, tiles
@@ -161,20 +161,20 @@ def test_a_chart_of_a_surface_with_holes_has_no_overlaps() -> None:
         disc_chart(TriMesh(np.eye(4)[:, :3], np.array([[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]])))
 
 
-def test_compression_is_what_the_skin_loses_in_length() -> None:
+def test_strain_is_the_share_of_length_that_skin_loses_or_gains() -> None:
     mesh = cap(17).mesh
-    squeezed = mesh.vertices * [0.7, 1.0, 1.0]
-    lost = compression(mesh, squeezed - mesh.vertices)
     middle = np.linalg.norm(mesh.vertices[:, :2], axis=1) < 0.15
-    np.testing.assert_allclose(lost[middle], 0.3, atol=0.02)
-    # Turned and moved, nothing is lost; stretched, neither.
+    for factor, wanted in ((0.7, 0.3), (1.25, 0.2)):
+        found = strain(mesh, mesh.vertices * [factor, 1.0, 1.0] - mesh.vertices)
+        np.testing.assert_allclose(found[middle], wanted, atol=0.02)
+    # Turned and moved, nothing changes; grown, all of it.
     turn = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))[0]
-    np.testing.assert_allclose(compression(mesh, mesh.vertices @ turn.T + 5 - mesh.vertices), 0, atol=1e-9)
-    np.testing.assert_allclose(compression(mesh, 0.4 * mesh.vertices), 0, atol=1e-9)
+    np.testing.assert_allclose(strain(mesh, mesh.vertices @ turn.T + 5 - mesh.vertices), 0, atol=1e-9)
+    np.testing.assert_allclose(strain(mesh, mesh.vertices), 0.5, atol=1e-9)
 
 
-def test_a_wrinkle_mask_rises_smoothly_from_nothing_to_full() -> None:
-    mask = wrinkle_mask(np.linspace(0, 0.3, 301), 0.02, 0.15)
+def test_a_mask_rises_smoothly_from_nothing_to_full() -> None:
+    mask = ramp(np.linspace(0, 0.3, 301), 0.02, 0.15)
     assert mask[20] == 0
     assert mask[151] == 1
     np.testing.assert_allclose(mask[85], 0.5, atol=1e-9)

@@ -15,7 +15,7 @@ PICTURE = np.random.default_rng(4).random((37, 23, 3)).astype(np.float32)
 
 
 def png_values(data: bytes) -> np.ndarray:
-    """Values (H, W, 3) of a PNG file with lines unfiltered or filtered by the one above."""
+    """Values (H, W, 3 or 4) of a PNG file with lines unfiltered or filtered by the one above."""
     assert data[:8] == b"\x89PNG\r\n\x1a\n"
     place, chunks = 8, {}
     while place < len(data):
@@ -25,14 +25,15 @@ def png_values(data: bytes) -> np.ndarray:
         chunks[kind] = body
         place += 12 + size
     width, height, depth, colour, *rest = struct.unpack(">IIBBBBB", chunks[b"IHDR"])
-    assert (colour, *rest) == (2, 0, 0, 0)
+    assert rest == [0, 0, 0]
+    channels = {2: 3, 6: 4}[colour]
     lines = np.frombuffer(zlib.decompress(chunks[b"IDAT"]), np.uint8).reshape(height, -1).copy()
     for row in range(height):
         assert lines[row, 0] == 0 or (lines[row, 0] == 2 and row)
         if lines[row, 0] == 2:
             lines[row, 1:] += lines[row - 1, 1:]
     kind = np.dtype(">u2" if depth == 16 else np.uint8)
-    return np.ascontiguousarray(lines[:, 1:]).view(kind).reshape(height, width, 3)
+    return np.ascontiguousarray(lines[:, 1:]).view(kind).reshape(height, width, channels)
 
 
 @pytest.mark.parametrize(("depth", "most"), [("png8", 255), ("png16", 65535)])
@@ -48,7 +49,7 @@ def test_png_holds_whole_numbers_exactly() -> None:
 
 
 def exr_values(data: bytes) -> np.ndarray:
-    """Values (H, W, 3) of an EXR file as `exr_bytes` writes them, by the published layout."""
+    """Values (H, W, 3 or 4) of an EXR file as `exr_bytes` writes them, by the published layout."""
     assert struct.unpack("<2i", data[:8]) == (20000630, 2)
     place, attributes = 8, {}
     while data[place]:
@@ -59,6 +60,7 @@ def exr_values(data: bytes) -> np.ndarray:
         place = len(data) - len(rest) + 4 + size
     left, top, right, bottom = struct.unpack("<4i", attributes["dataWindow"])
     height, width = bottom - top + 1, right - left + 1
+    channels = (len(attributes["channels"]) - 1) // 18
     assert left == top == 0
     count = -(-height // 16)
     offsets = struct.unpack(f"<{count}Q", data[place + 1 : place + 1 + 8 * count])
@@ -67,7 +69,7 @@ def exr_values(data: bytes) -> np.ndarray:
         first, size = struct.unpack("<2i", data[offset : offset + 8])
         assert first == 16 * number
         block = data[offset + 8 : offset + 8 + size]
-        whole = 12 * width * min(16, height - first)
+        whole = 4 * channels * width * min(16, height - first)
         if size < whole:
             delta = np.frombuffer(zlib.decompress(block), np.uint8).astype(np.int64)
             delta[1:] -= 128
@@ -75,7 +77,7 @@ def exr_values(data: bytes) -> np.ndarray:
             plain = np.empty(whole, np.uint8)
             plain[::2], plain[1::2] = split[: (whole + 1) // 2], split[(whole + 1) // 2 :]
             block = plain.tobytes()
-        lines.append(np.frombuffer(block, "<f4").reshape(-1, 3, width))
+        lines.append(np.frombuffer(block, "<f4").reshape(-1, channels, width))
     return np.concatenate(lines).transpose(0, 2, 1)[..., ::-1]
 
 

@@ -180,6 +180,15 @@ class MapSettings:
 
 
 @dataclass(frozen=True)
+class WrinkleSettings(MapSettings):
+    """How a wrinkle kit is made and written."""
+
+    least: float = _setting(
+        3.0, "Degrees: shape keys that turn no normal by so much get no map in a wrinkle kit", low=0.0, high=90.0
+    )
+
+
+@dataclass(frozen=True)
 class BakeSettings:
     """What frames become."""
 

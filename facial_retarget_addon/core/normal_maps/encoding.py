@@ -16,3 +16,11 @@ def as_picture(vectors: FloatArray, directx: bool = False) -> FloatArray:
     if directx:
         picture[..., 1] = 1 - picture[..., 1]
     return picture
+
+
+def as_pairs(pairs: FloatArray, directx: bool = False) -> FloatArray:
+    """X and y of two unit vectors (H, W, 4), row 0 at the bottom, as a picture (H, W, 4) as `as_picture` has them."""
+    picture = 0.5 * pairs[::-1] + np.float32(0.5)
+    if directx:
+        picture[..., 1::2] = 1 - picture[..., 1::2]
+    return picture

@@ -12,6 +12,7 @@ from ..mesh import TriMesh
 from ..methods.settings import MapSettings
 from ..problem import Problem
 from .chart import disc_chart
+from .key_poses import Pose
 from .normal_map import NormalMap, fit_normal_map
 from .surface import TexturedSurface
 from .texels import tiles
@@ -71,11 +72,15 @@ class FrameMaps:
 
         See `NormalMap.vectors`.
         """
+        light, fine = self.pose(source)
+        return light, {tile: held.vectors(light, fine) for tile, held in self.maps.items()}
+
+    def pose(self, source: FloatArray) -> Pose:
+        """Both meshes of a source frame (Vs, 3)."""
         (fine,), _ = self._retargeter.detail(source[None])
         fine = self._rest + self._fine_strength * (fine - self._rest)
         light = self._gained.scale(self._retargeter.frames(source[None]))[0] if self._own else fine
-        light = light[: len(self.surface.mesh.vertices)]
-        return light, {tile: held.vectors(light, fine) for tile, held in self.maps.items()}
+        return Pose(light[: len(self.surface.mesh.vertices)], fine)
 
 
 def _level_surface(fine: TriMesh, faces: IntArray) -> TexturedSurface:

@@ -95,6 +95,25 @@ class NormalMap:
         image[self.around] = image[self.nearest]
         return image.reshape(self.size, self.size, 3)
 
+    def at_pixels(self, values: FloatArray) -> FloatArray:
+        """Values (V,) of the light mesh's vertices at the pixels: (size, size) float32, 0 where nothing is."""
+        image = np.zeros(self.size * self.size, np.float32)
+        there = np.asarray(values, np.float32)[self._space.vertex]
+        for block in self._blocks:
+            image[block.pixel] = block.frame @ there
+        image[self.around] = image[self.nearest]
+        return image.reshape(self.size, self.size)
+
+    def around_vertices(self, picture: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Sums of a picture (size, size) around each vertex: (V,) of its pixels times their weights, (V,) of these."""
+        count, flat = len(self._surface.mesh.vertices), np.asarray(picture, np.float64).ravel()
+        sums, weights = np.zeros(count), np.zeros(count)
+        for block in self._blocks:
+            ones = np.ones(len(block.pixel))
+            sums += np.bincount(self._space.vertex, block.frame.T @ flat[block.pixel], count)
+            weights += np.bincount(self._space.vertex, block.frame.T @ ones, count)
+        return sums, weights
+
     def _fine_normals(self, fine: FloatArray) -> FloatArray:
         """(N, 3) float32 unit normals of the fine mesh, area-weighted: its triangles are of like shape."""
         places = np.asarray(fine, np.float32)

@@ -1,4 +1,4 @@
-"""How a shape squeezes the skin: where its wrinkles belong."""
+"""How a shape squeezes and stretches the skin: where its wrinkles belong."""
 
 from __future__ import annotations
 
@@ -9,11 +9,13 @@ from ..arrays import FloatArray, unit_vectors
 from ..mesh import TriMesh
 
 _ROUNDS = 3
-"""Times that each vertex takes half of its neighbours' mean: a mask has no facets."""
+"""Times that each vertex takes half of its neighbours' mean."""
 
 
-def compression(mesh: TriMesh, displacements: FloatArray) -> FloatArray:
-    """How much shorter the skin gets at each vertex, along the direction in which it shortens most.
+def strain(mesh: TriMesh, displacements: FloatArray) -> FloatArray:
+    """How much the length of the skin changes at each vertex, along the direction in which it changes most.
+
+    Skin that gets shorter folds, and skin that gets longer loses the folds that it had.
 
     Parameters
     ----------
@@ -21,8 +23,8 @@ def compression(mesh: TriMesh, displacements: FloatArray) -> FloatArray:
 
     Returns
     -------
-    (V,) from 0 (nowhere shorter) to 1 (nothing left of the length): one minus the smaller singular value of the
-    deformation of the triangles around, area-weighted.
+    (V,) from 0 (as long as before) to 1: one minus the shorter length over the longer one, which are the smaller
+    singular value of the deformation and 1, or 1 and the larger one; mean of the triangles around, area-weighted.
     """
     a, b, c = (mesh.vertices[mesh.faces[:, k]] for k in range(3))
     along = unit_vectors(b - a)
@@ -37,10 +39,16 @@ def compression(mesh: TriMesh, displacements: FloatArray) -> FloatArray:
     gradient[whole] = sides[whole] @ np.linalg.inv(rest[whole])
     metric = np.einsum("fki,fkj->fij", gradient, gradient)
     middle, half = 0.5 * (metric[:, 0, 0] + metric[:, 1, 1]), 0.5 * (metric[:, 0, 0] - metric[:, 1, 1])
-    smaller = np.sqrt(np.maximum(middle - np.hypot(half, metric[:, 0, 1]), 0.0))
-    shorter = np.where(whole, np.clip(1 - smaller, 0.0, 1.0), 0.0)
-    weighted = np.bincount(mesh.faces.ravel(), np.repeat(shorter * mesh.face_areas / 3, 3), len(mesh.vertices))
+    turn = np.hypot(half, metric[:, 0, 1])
+    smaller, larger = np.sqrt(np.maximum(middle - turn, 0.0)), np.sqrt(np.maximum(middle + turn, 1.0))
+    changed = np.where(whole, np.clip(np.maximum(1 - smaller, 1 - 1 / larger), 0.0, 1.0), 0.0)
+    weighted = np.bincount(mesh.faces.ravel(), np.repeat(changed * mesh.face_areas / 3, 3), len(mesh.vertices))
     values = np.divide(weighted, mesh.vertex_areas, out=np.zeros(len(weighted)), where=mesh.vertex_areas > 0)
+    return smoothed(mesh, values)
+
+
+def smoothed(mesh: TriMesh, values: FloatArray) -> FloatArray:
+    """Values (V,), each vertex's mixed a few times with its neighbours' mean: a mask has no facets."""
     around = mesh.neighbours_mean
     lonely = sp.diags((np.diff(around.indptr) == 0).astype(np.float64))
     for _ in range(_ROUNDS):
@@ -48,9 +56,9 @@ def compression(mesh: TriMesh, displacements: FloatArray) -> FloatArray:
     return values
 
 
-def wrinkle_mask(compressed: FloatArray, nothing: float = 0.02, full: float = 0.15) -> FloatArray:
-    """Masks (V,) from 0 to 1 of compressions (V,): 0 up to `nothing`, 1 from `full` on, smooth between."""
-    share = np.clip((compressed - nothing) / (full - nothing), 0.0, 1.0)
+def ramp(values: FloatArray, nothing: float, full: float) -> FloatArray:
+    """Masks (V,) from 0 to 1 of values (V,): 0 up to `nothing`, 1 from `full` on, smooth between."""
+    share = np.clip((values - nothing) / (full - nothing), 0.0, 1.0)
     mask: FloatArray = share * share * (3 - 2 * share)
     return mask
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..arrays import Progress, no_progress, progress_part
 from ..errors import RetargetError
+from ..level_retargeter import LevelRetargeter
 from ..methods.settings import Settings
 from ..points import common_names
 from ..problem import Problem
@@ -40,6 +41,7 @@ class ClonedShapes:
     report : of the fit and the retargeting, as plain data, with `warnings`.
     without_counterpart : shapes that move the source and not the target -> why.
     spots : where each shape is in trouble, by its name; of a corrective, where the combination is.
+    leveled : what was fitted; None for a method without levels.
     """
 
     shapes: ShapeSet
@@ -47,6 +49,7 @@ class ClonedShapes:
     report: dict[str, Any]
     without_counterpart: dict[str, str]
     spots: Mapping[str, Spots]
+    leveled: LevelRetargeter | None = None
 
     def only(self, names: Sequence[str]) -> ClonedShapes:
         """These shapes alone, in this order; the report's other figures stay those of all."""
@@ -54,7 +57,8 @@ class ClonedShapes:
         rows = [row[name] for name in names]
         lost = {name: why for name, why in self.without_counterpart.items() if name in names}
         report = {**self.report, "shapes": rows, "without_counterpart": lost}
-        return ClonedShapes(self.shapes.subset(names), rows, report, lost, {name: self.spots[name] for name in names})
+        spots = {name: self.spots[name] for name in names}
+        return ClonedShapes(self.shapes.subset(names), rows, report, lost, spots, self.leveled)
 
 
 def clone_shapes(
@@ -118,7 +122,8 @@ def clone_shapes(
     ]
     report = {**result.report, "warnings": warnings, "shapes": rows, "without_counterpart": lost}
     progress(1.0, "done")
-    return ClonedShapes(alone, rows, report, lost, dict(zip(shapes.names, result.spots, strict=True)))
+    spots = dict(zip(shapes.names, result.spots, strict=True))
+    return ClonedShapes(alone, rows, report, lost, spots, result.leveled)
 
 
 def _stilled(shapes: ShapeSet, names: Sequence[str]) -> ShapeSet:

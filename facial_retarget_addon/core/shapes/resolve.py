@@ -114,4 +114,4 @@ def _kept(cloned: ClonedShapes, corrected: ShapeSet, idle: Sequence[str]) -> Clo
     if idle:
         warnings.insert(0, f"corrected shapes that do not move the source's points teach nothing: {listed(idle)}")
     report = {**cloned.report, "warnings": warnings, "shapes": rows, "without_counterpart": lost}
-    return ClonedShapes(cloned.shapes.with_shapes(corrected), rows, report, lost, cloned.spots)
+    return ClonedShapes(cloned.shapes.with_shapes(corrected), rows, report, lost, cloned.spots, cloned.leveled)
