@@ -5,10 +5,11 @@ from typing import Any
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
-from bpy.types import Context, Event, Operator
+from bpy.types import Context, Operator
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
 from .in_steps import FromBrowser, InSteps
+from .over_frames import OverFrames
 from .polls import OnFace
 
 SUFFIXES = {"FAP": ".fap", "ARKIT": ".csv"}
@@ -94,7 +95,7 @@ class FACIAL_RETARGET_OT_import_motion(OnFace, FromBrowser, ImportHelper, InStep
         self.report({"INFO"}, f"{result.count} frames imported, up to scene frame {result.last:.0f}")
 
 
-class FACIAL_RETARGET_OT_export_motion(OnFace, FromBrowser, ExportHelper, InSteps, Operator):
+class FACIAL_RETARGET_OT_export_motion(OnFace, OverFrames, FromBrowser, ExportHelper, InSteps, Operator):
     """Export the motion of the active face at the scene's rate; Esc stops"""
 
     bl_idname = "facial_retarget.export_motion"
@@ -110,8 +111,6 @@ class FACIAL_RETARGET_OT_export_motion(OnFace, FromBrowser, ExportHelper, InStep
         ],
         description="In a script the file's suffix decides",
     )
-    frame_start: IntProperty(name="First Frame", default=1, description="First scene frame that is exported")
-    frame_end: IntProperty(name="Last Frame", default=250, description="Last scene frame that is exported")
     source: EnumProperty(
         name="FAPs From",
         description="Where the values are read from",
@@ -127,20 +126,9 @@ class FACIAL_RETARGET_OT_export_motion(OnFace, FromBrowser, ExportHelper, InStep
         """Suffix of the format, for the file browser."""
         return SUFFIXES[self.format]
 
-    def invoke(self, context: Context, event: Event) -> set[str]:
-        """The scene's range is meant, until the artist says otherwise."""
-        self.frame_start, self.frame_end = context.scene.frame_start, context.scene.frame_end
-        return super().invoke(context, event)
-
     def steps(self, context: Context) -> Any:
         """Read frame after frame, then write the file."""
         from ..facial_retarget_addon.bridge.motion.motion_export import export_motion_steps
 
         frames = range(self.frame_start, self.frame_end + 1)
         return export_motion_steps(context, context.active_object, Path(self.filepath), frames, self.source)
-
-    def finish(self, result: Any) -> None:
-        """Pass on the warnings."""
-        for warning in result.warnings:
-            self.report({"WARNING"}, warning)
-        self.report({"INFO"}, f"{result.count} frames exported from {result.source}")

@@ -16,6 +16,9 @@ class FACIAL_RETARGET_PT_export(Step, Panel):
     def draw(self, context: Context) -> None:
         """Draw the panel."""
         self.layout.operator("facial_retarget.export_gltf", icon="EXPORT")
+        row = self.layout.row(align=True)
+        row.operator("facial_retarget.export_curves", icon="FCURVE")
+        row.operator("facial_retarget.export_faps")
 
 
 class FACIAL_RETARGET_PT_job(RetargetTab, Panel):

@@ -43,6 +43,8 @@ TEXTS = {
     "Retarget": "Übertragen",
     "Set Up Workspace": "Arbeitsbereich einrichten",
     "Export glTF": "glTF exportieren",
+    "Export Curves": "Kurven exportieren",
+    "Export FAPs": "FAPs exportieren",
     "Open Manual": "Handbuch öffnen",
     # The panels.
     "1. Faces": "1. Gesichter",
@@ -73,6 +75,12 @@ TEXTS = {
     "Stopped: nothing was changed": "Angehalten: nichts wurde geändert",
     "Wait for what is being computed, or stop it with Esc": "Abwarten, was gerechnet wird, oder mit Esc anhalten",
     "Choose a source and a target under Faces": "Quelle und Ziel unter Gesichter wählen",
+    "The target has no shape keys: bake the performance as some": (
+        "Das Ziel hat keine Shape-Keys: die Darbietung als solche backen"
+    ),
+    "No FAPs drive the target: Export Motion, under MPEG-4 Face, measures them on its mesh": (
+        "Keine FAPs treiben das Ziel an: Export Motion, unter MPEG-4-Gesicht, misst sie am Netz"
+    ),
     "Switch to Object Mode": "In den Objektmodus wechseln",
 }
 """English text -> German text, with the same {fields}."""

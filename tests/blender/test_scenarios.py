@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 SCENARIOS = Path(__file__).parent / "scenarios"
-NOT_ALONE = ("install", "stage", "retargeting", "feature_point_method", "wavelet_method", "sample")
+NOT_ALONE = ("install", "stage", "retargeting", "feature_point_method", "wavelet_method", "key_curves", "sample")
 
 
 @pytest.mark.parametrize("scenario", sorted({path.stem for path in SCENARIOS.glob("*.py")} - set(NOT_ALONE)))

@@ -22,6 +22,7 @@ from .arkit_keys import find_arkit_keys
 from .controls import has_controls, read_controls, shown_faps
 from .fap_faces import fit_steps
 from .head_empty import find_head, read_head
+from .key_values import key_value_steps
 
 
 @dataclass(frozen=True)
@@ -91,16 +92,9 @@ def _weights_steps(context: Context, thing: Object, path: Path, frames: range) -
     keys = find_arkit_keys(thing)
     if not keys:
         raise RetargetError(f"object {thing.name!r} has no shape key with an ARKit name, expected some such as jawOpen")
-    columns = [(ARKIT_NAMES.index(name), key) for name, key in keys.items()]
     weights = np.zeros((len(frames), len(ARKIT_NAMES)))
-
-    def read(i: int, frame: int) -> None:
-        context.scene.frame_set(frame)
-        blocks = thing.data.shape_keys.evaluated_get(context.evaluated_depsgraph_get()).key_blocks
-        for column, key in columns:
-            weights[i, column] = blocks[key].value
-
-    yield from part(each_frame(context.scene, frames, read), 0.0, 0.9)
+    held = yield from part(key_value_steps(context, [(thing, key) for key in keys.values()], frames), 0.0, 0.9)
+    weights[:, [ARKIT_NAMES.index(name) for name in keys]] = held
     yield 0.9, "Writing"
     write_arkit_csv(ArkitTake(path.stem, scene_rate(context.scene), weights, None, None), path)
     missing = [name for name in ARKIT_NAMES if name not in keys]
