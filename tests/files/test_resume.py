@@ -202,15 +202,15 @@ def test_maps_survive_outputs_that_cannot_be_written(long_job, monkeypatch, caps
     write_frames(np.load(job.source.frames)["frames"][:3], job.source.frames)
     write_job(job, job.path)
 
-    put = whole_files._replace
+    put = whole_files._renamed
 
-    def full(aside, path):
-        if path == job.output.frames:
+    def full(start, end):
+        if end == job.output.frames:
             raise OSError(errno.ENOSPC, "No space left on device")
-        put(aside, path)
+        return put(start, end)
 
     with monkeypatch.context() as patched:
-        patched.setattr(whole_files, "_replace", full)
+        patched.setattr(whole_files, "_renamed", full)
         assert main(["run", str(job.path), "--resume", "--quiet"]) == 2
     assert "the disk is full" in capsys.readouterr().err
     assert left(job) == ["maps.unfinished", "out.npz.unfinished"]
