@@ -1,20 +1,37 @@
-"""Texts of the interface in other languages: a module with TEXTS and a line in LANGUAGES make a new one."""
+"""Texts in other languages: a package with TEXTS, SENTENCES and PHRASES and a line in LANGUAGES make a new one."""
 
 import bpy
+from bpy.app.translations import pgettext_iface
 
-from .de import TEXTS as GERMAN
+from . import de
+from .sentences import Sentences
 
-LANGUAGES = {"de_DE": GERMAN, "de": GERMAN}
-"""What Blender calls a language, by its versions -> English text -> text."""
+LANGUAGES = {"de_DE": de, "de": de}
+"""What Blender calls a language, by its versions -> its texts."""
+
+SENTENCES = {language: Sentences(texts.SENTENCES, texts.PHRASES) for language, texts in LANGUAGES.items()}
+"""The same -> what is said with values filled in."""
 
 CONTEXTS = ("*", "Operator")
 """Where Blender looks texts up: buttons of operators have a place of their own."""
 
 
+def filled(text: str, **fields: object) -> str:
+    """A text of the interface in the artist's language, with its fields filled in."""
+    return pgettext_iface(text).format(**fields)
+
+
+def told(sentence: str) -> str:
+    """A sentence that has its values already, such as a RetargetError's or a warning, in the artist's language."""
+    translations = bpy.app.translations
+    language = SENTENCES.get(translations.locale) if bpy.context.preferences.view.use_translate_reports else None
+    return sentence if language is None else language.told(sentence)
+
+
 def register() -> None:
     """Let Blender's translation know our texts."""
     known = {
-        language: {(context, english): text for english, text in texts.items() for context in CONTEXTS}
+        language: {(context, english): text for english, text in texts.TEXTS.items() for context in CONTEXTS}
         for language, texts in LANGUAGES.items()
     }
     bpy.app.translations.register(__name__, known)

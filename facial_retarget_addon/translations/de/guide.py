@@ -1,7 +1,6 @@
-"""German. What has no entry stays English."""
+"""The line on top: what to do next, how long work takes."""
 
 TEXTS = {
-    # The line on top.
     "Import two faces, or try the built-in ones": "Zwei Gesichter importieren, oder die eingebauten ausprobieren",
     "Choose the face that moves": "Das Gesicht wählen, das sich bewegt",
     "Choose the face that shall move": "Das Gesicht wählen, das sich bewegen soll",
@@ -36,51 +35,33 @@ TEXTS = {
     "Play it: then export it, or correct it and retarget again": (
         "Abspielen: dann exportieren, oder verbessern und neu übertragen"
     ),
-    # Its buttons.
-    "Add Built-In Faces": "Eingebaute Gesichter hinzufügen",
-    "Use Active Object": "Aktives Objekt nehmen",
-    "Place Points": "Punkte setzen",
-    "Retarget": "Übertragen",
-    "Set Up Workspace": "Arbeitsbereich einrichten",
-    "Export glTF": "glTF exportieren",
-    "Export Curves": "Kurven exportieren",
-    "Export FAPs": "FAPs exportieren",
-    "Open Manual": "Handbuch öffnen",
-    # The panels.
-    "1. Faces": "1. Gesichter",
-    "2. Feature Points": "2. Merkmalspunkte",
-    "3. Examples": "3. Beispiele",
-    "4. Retarget": "4. Übertragen",
-    "5. Bake and Export": "5. Backen und Exportieren",
-    "6. Report": "6. Bericht",
-    "More": "Weiteres",
-    "Base Mesh": "Grundnetz",
-    "Parts of the Head": "Teile des Kopfes",
-    "Show in View": "In der Ansicht zeigen",
-    "Settings": "Einstellungen",
-    "Gains": "Stärken",
-    "Live Preview": "Live-Vorschau",
-    "Compare": "Vergleichen",
-    "Normal Maps": "Normalenkarten",
-    "Job for the Command Line": "Auftrag für die Kommandozeile",
-    "Clone Shape Keys": "Shape-Keys klonen",
-    "Corrections": "Verbesserungen",
-    "MPEG-4 Face": "MPEG-4-Gesicht",
     # Long work.
-    "Retargeting": "Überträgt",
     "Esc stops": "Esc hält an",
-    "Stop": "Anhalten",
     "{seconds} s left": "noch {seconds} s",
     "{minutes} min left": "noch {minutes} min",
     "Stopped: nothing was changed": "Angehalten: nichts wurde geändert",
-    "Wait for what is being computed, or stop it with Esc": "Abwarten, was gerechnet wird, oder mit Esc anhalten",
-    "Choose a source and a target under Faces": "Quelle und Ziel unter Gesichter wählen",
-    "The target has no shape keys: bake the performance as some": (
-        "Das Ziel hat keine Shape-Keys: die Darbietung als solche backen"
-    ),
-    "No FAPs drive the target: Export Motion, under MPEG-4 Face, measures them on its mesh": (
-        "Keine FAPs treiben das Ziel an: Export Motion, unter MPEG-4-Gesicht, misst sie am Netz"
-    ),
-    "Switch to Object Mode": "In den Objektmodus wechseln",
+    "Working": "Arbeitet",
+    "Retargeting": "Überträgt",
+    "Guessing": "Rät",
+    "Fitting": "Passt an",
+    "Comparing": "Vergleicht",
+    "Loading the job": "Lädt den Auftrag",
+    "Loading the shapes": "Lädt die Formen",
+    "Saving the shapes": "Speichert die Formen",
+    "Building": "Baut",
+    "Saving the job": "Speichert den Auftrag",
+    "Making controls": "Erstellt Regler",
+    "Cloning": "Klont",
+    "Solving": "Löst neu",
+    "Making the actor": "Erstellt den Darsteller",
+    "Making the faces": "Erstellt die Gesichter",
+    "Roughing out": "Legt an",
+    "Mirroring": "Spiegelt",
+    "Checking examples": "Prüft Beispiele",
+    "Taking the frame apart": "Zerlegt das Bild",
+    "Copying points": "Kopiert Punkte",
+    "Making normal maps": "Erstellt Normalmaps",
+    "Importing": "Importiert",
+    "Exporting": "Exportiert",
+    "Making shapes": "Erstellt Formen",
 }
-"""English text -> German text, with the same {fields}."""
