@@ -6,6 +6,7 @@ from bpy.props import EnumProperty
 from bpy.types import Context, Operator
 
 from ..facial_retarget_addon.properties.cloning import ACTOR_SETS
+from ..facial_retarget_addon.translations import told
 from .in_steps import InSteps
 from .polls import in_mode
 
@@ -40,5 +41,5 @@ class FACIAL_RETARGET_OT_add_actor(InSteps, Operator):
     def finish(self, result: Any) -> None:
         """Say what it brings."""
         self.report(
-            {"INFO"}, f"{result.name!r} is the source, with {len(result.data.shape_keys.key_blocks) - 1} shapes"
+            {"INFO"}, told(f"{result.name!r} is the source, with {len(result.data.shape_keys.key_blocks) - 1} shapes")
         )

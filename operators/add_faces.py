@@ -5,6 +5,7 @@ from typing import Any
 from bpy.props import BoolProperty, EnumProperty
 from bpy.types import Context, Operator
 
+from ..facial_retarget_addon.translations import told
 from .in_steps import InSteps
 from .polls import in_mode
 
@@ -42,4 +43,4 @@ class FACIAL_RETARGET_OT_add_faces(InSteps, Operator):
     def finish(self, result: Any) -> None:
         """Name them."""
         source, target = result
-        self.report({"INFO"}, f"Added {source.name!r}, who acts, and {target.name!r}, the target")
+        self.report({"INFO"}, told(f"Added {source.name!r}, who acts, and {target.name!r}, the target"))

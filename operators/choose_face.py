@@ -3,6 +3,7 @@
 from bpy.props import EnumProperty
 from bpy.types import Context, Operator
 
+from ..facial_retarget_addon.translations import told
 from .polls import OnFace
 
 
@@ -24,7 +25,7 @@ class FACIAL_RETARGET_OT_choose_face(OnFace, Operator):
         task, face = context.scene.facial_retarget, context.active_object
         other = "target" if self.role == "SOURCE" else "source"
         if getattr(task, other) == face:
-            self.report({"ERROR"}, f"{face.name!r} is the {other} already: select another object")
+            self.report({"ERROR"}, told(f"{face.name!r} is the {other} already: select another object"))
             return {"CANCELLED"}
         setattr(task, self.role.lower(), face)
         return {"FINISHED"}

@@ -4,6 +4,7 @@ from typing import Any
 
 from bpy.types import Context, Operator
 
+from ..facial_retarget_addon.translations import told
 from .errors import tells_user
 from .in_steps import InSteps
 from .polls import OnCloning
@@ -26,10 +27,10 @@ class FACIAL_RETARGET_OT_clone_shapes(OnCloning, InSteps, Operator):
     def finish(self, result: Any) -> None:
         """Pass on the warnings."""
         for warning in result.warnings:
-            self.report({"WARNING"}, warning)
-        kept = f", {result.kept} kept" if result.kept else ""
+            self.report({"WARNING"}, told(warning))
+        kept = f"; {result.kept} kept" if result.kept else ""
         heads = f" onto {result.heads} heads" if result.heads > 1 else ""
-        self.report({"INFO"}, f"{result.cloned} shape keys cloned{heads}{kept}")
+        self.report({"INFO"}, told(f"{result.cloned} shape keys cloned{heads}" + kept))
 
 
 class FACIAL_RETARGET_OT_find_corrected(OnCloning, Operator):
@@ -44,7 +45,7 @@ class FACIAL_RETARGET_OT_find_corrected(OnCloning, Operator):
         """Compare the keys with what was cloned."""
         from ..facial_retarget_addon.bridge.cloning.resolving import mark_corrected
 
-        self.report({"INFO"}, f"{mark_corrected(context)} shape keys are corrected")
+        self.report({"INFO"}, told(f"{mark_corrected(context)} shape keys are corrected"))
         return {"FINISHED"}
 
 
@@ -65,5 +66,5 @@ class FACIAL_RETARGET_OT_resolve_shapes(OnCloning, InSteps, Operator):
     def finish(self, result: Any) -> None:
         """Pass on the warnings."""
         for warning in result.warnings:
-            self.report({"WARNING"}, warning)
-        self.report({"INFO"}, f"{result.solved} shape keys solved again, from {result.corrected} corrected ones")
+            self.report({"WARNING"}, told(warning))
+        self.report({"INFO"}, told(f"{result.solved} shape keys solved again, from {result.corrected} corrected ones"))

@@ -4,6 +4,7 @@ from typing import Any
 
 from bpy.types import Context, Operator
 
+from ..facial_retarget_addon.translations import told
 from .in_steps import InSteps
 from .polls import OnFace
 
@@ -41,4 +42,4 @@ class FACIAL_RETARGET_OT_copy_points(OnFace, InSteps, Operator):
         """Say what became of each."""
         for copied in result:
             how = "exactly" if copied.exact else "through the fit of the surfaces"
-            self.report({"INFO"}, f"{copied.thing.name}: {len(copied.points)} feature points copied {how}")
+            self.report({"INFO"}, told(f"{copied.thing.name}: {len(copied.points)} feature points copied {how}"))

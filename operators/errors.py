@@ -6,6 +6,7 @@ from functools import wraps
 from bpy.types import Context, Operator
 
 from ..facial_retarget_addon.core.errors import RetargetError
+from ..facial_retarget_addon.translations import told
 
 Method = Callable[[Operator, Context], set[str]]
 
@@ -19,7 +20,7 @@ def tells_user(method: Method) -> Method:
         try:
             return method(self, context)
         except RetargetError as error:
-            self.report({"ERROR"}, str(error))
+            self.report({"ERROR"}, told(str(error)))
             return {"CANCELLED"}
 
     return guarded

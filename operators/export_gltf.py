@@ -7,6 +7,7 @@ from bpy.props import StringProperty
 from bpy.types import Context, Operator
 from bpy_extras.io_utils import ExportHelper
 
+from ..facial_retarget_addon.translations import told
 from .errors import tells_user
 from .polls import OnTask
 
@@ -35,5 +36,5 @@ class FACIAL_RETARGET_OT_export_gltf(OnTask, Operator, ExportHelper):
 
         with head_selected(context, context.scene.facial_retarget.target):
             bpy.ops.export_scene.gltf(filepath=self.filepath, use_selection=True)
-        self.report({"INFO"}, f"Exported {Path(self.filepath).name}")
+        self.report({"INFO"}, told(f"Exported {Path(self.filepath).name}"))
         return {"FINISHED"}

@@ -4,6 +4,7 @@ from typing import Any
 
 from bpy.types import Context, Operator
 
+from ..facial_retarget_addon.translations import told
 from .in_steps import InSteps
 from .polls import OnFace, OnPoints
 
@@ -25,7 +26,7 @@ class FACIAL_RETARGET_OT_make_controls(OnPoints, InSteps, Operator):
     def finish(self, result: list[str]) -> None:
         """Say which FAPs the face cannot show."""
         if result:
-            self.report({"WARNING"}, f"{len(result)} FAPs have no points on this face: {', '.join(result)}")
+            self.report({"WARNING"}, told(f"{len(result)} FAPs have no points on this face: {', '.join(result)}"))
         self.report({"INFO"}, "Controls made")
 
 

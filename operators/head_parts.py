@@ -2,6 +2,7 @@
 
 from bpy.types import Context, Operator
 
+from ..facial_retarget_addon.translations import told
 from .errors import tells_user
 from .polls import OnChosen, OnFace
 
@@ -19,7 +20,7 @@ class FACIAL_RETARGET_OT_add_parts(OnFace, Operator):
         from ..facial_retarget_addon.bridge.part_list import add_parts
 
         count = add_parts(context.active_object, context.selected_objects)
-        self.report({"INFO"}, f"{count} parts added")
+        self.report({"INFO"}, told(f"{count} parts added"))
         return {"FINISHED"}
 
 

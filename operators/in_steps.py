@@ -3,10 +3,10 @@
 from time import monotonic
 from typing import Any
 
-from bpy.app.translations import pgettext_iface
 from bpy.types import Context, Event
 
 from ..facial_retarget_addon.time_left import TimeLeft, spoken
+from ..facial_retarget_addon.translations import filled, told
 from .errors import tells_user
 
 TICK, TURN = 0.01, 0.05
@@ -83,9 +83,9 @@ class InSteps:
         work = context.window_manager.facial_retarget
         work.share, work.left = share, self._left.seconds
         text, fields = spoken(work.left)
-        left = f", {pgettext_iface(text).format(**fields)}" if text else ""
-        stops = pgettext_iface("Esc stops")
-        context.workspace.status_text_set(f"{pgettext_iface(self.doing)} {share:.0%}: {what}{left} ({stops})")
+        left = f", {filled(text, **fields)}" if text else ""
+        stops = filled("Esc stops")
+        context.workspace.status_text_set(f"{filled(self.doing)} {share:.0%}: {told(what)}{left} ({stops})")
         context.window_manager.progress_update(100 * share)
         _redraw_sidebars(context)
 

@@ -7,6 +7,7 @@ from bpy.props import EnumProperty, StringProperty
 from bpy.types import Context, Operator
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
+from ..facial_retarget_addon.translations import told
 from .in_steps import FromBrowser, InSteps
 from .polls import OnCloning, OnTask, in_mode
 
@@ -40,7 +41,7 @@ class FACIAL_RETARGET_OT_load_job(FromBrowser, ImportHelper, InSteps, Operator):
 
     def finish(self, result: None) -> None:
         """Name it."""
-        self.report({"INFO"}, f"Loaded {Path(self.filepath).name}")
+        self.report({"INFO"}, told(f"Loaded {Path(self.filepath).name}"))
 
 
 class FACIAL_RETARGET_OT_save_job(OnTask, FromBrowser, ExportHelper, InSteps, Operator):
@@ -61,7 +62,7 @@ class FACIAL_RETARGET_OT_save_job(OnTask, FromBrowser, ExportHelper, InSteps, Op
 
     def finish(self, result: None) -> None:
         """Name it."""
-        self.report({"INFO"}, f"Saved {self.filepath}")
+        self.report({"INFO"}, told(f"Saved {self.filepath}"))
 
 
 class FACIAL_RETARGET_OT_save_clone_job(OnCloning, FromBrowser, ExportHelper, InSteps, Operator):
@@ -82,4 +83,4 @@ class FACIAL_RETARGET_OT_save_clone_job(OnCloning, FromBrowser, ExportHelper, In
 
     def finish(self, result: None) -> None:
         """Name it."""
-        self.report({"INFO"}, f"Saved {self.filepath}")
+        self.report({"INFO"}, told(f"Saved {self.filepath}"))

@@ -3,6 +3,7 @@
 from bpy.props import StringProperty
 from bpy.types import Context, Event, Operator
 
+from ..facial_retarget_addon.translations import told
 from .polls import OnTask
 
 
@@ -23,7 +24,7 @@ class FACIAL_RETARGET_OT_add_example(OnTask, Operator):
         """Put the name on the list."""
         examples = context.scene.facial_retarget.examples
         if not self.name or self.name in examples:
-            self.report({"ERROR"}, f"example {self.name!r} is listed already, expected another shape key's name")
+            self.report({"ERROR"}, told(f"example {self.name!r} is listed already, expected another shape key's name"))
             return {"CANCELLED"}
         examples.add().name = self.name
         return {"FINISHED"}

@@ -5,6 +5,7 @@ from typing import Any
 from bpy.props import EnumProperty, FloatProperty, StringProperty
 from bpy.types import Context, Event, Operator
 
+from ..facial_retarget_addon.translations import told
 from .errors import tells_user
 from .in_steps import InSteps
 from .polls import OnTask
@@ -62,7 +63,7 @@ class FACIAL_RETARGET_OT_rough_out(OnExample, InSteps, Operator):
         return context.window_manager.invoke_confirm(
             self,
             event,
-            title=f"{self.example} is sculpted on {self.face(context).name}",
+            title=told(f"{self.example} is sculpted on {self.face(context).name} already"),
             message="Replace what you have sculpted?",
             confirm_text="Replace",
             icon="WARNING",
@@ -84,11 +85,11 @@ class FACIAL_RETARGET_OT_rough_out(OnExample, InSteps, Operator):
     def finish(self, result: Any) -> None:
         """Say what was made and what was not."""
         for warning in result.warnings:
-            self.report({"WARNING"}, warning)
+            self.report({"WARNING"}, told(warning))
         if result.unable:
-            self.report({"WARNING"}, f"{', '.join(result.unable)}: there is nothing to make it from, sculpt it")
-        kept = f", {len(result.kept)} kept" if result.kept else ""
-        self.report({"INFO"}, f"Roughed out: {', '.join(result.made)}{kept}")
+            self.report({"WARNING"}, told(f"{', '.join(result.unable)}: there is nothing to make it from, sculpt it"))
+        kept = f"; {len(result.kept)} kept" if result.kept else ""
+        self.report({"INFO"}, told(f"Roughed out: {', '.join(result.made)}" + kept))
 
 
 class FACIAL_RETARGET_OT_mirror_example(OnExample, InSteps, Operator):
@@ -118,7 +119,7 @@ class FACIAL_RETARGET_OT_mirror_example(OnExample, InSteps, Operator):
 
     def finish(self, result: Any) -> None:
         """Say which ones."""
-        self.report({"INFO"}, f"Mirrored: {', '.join(result)}")
+        self.report({"INFO"}, told(f"Mirrored: {', '.join(result)}"))
 
 
 class FACIAL_RETARGET_OT_scale_example(OnExample, Operator):
@@ -167,4 +168,4 @@ class FACIAL_RETARGET_OT_check_examples(OnTask, InSteps, Operator):
 
     def finish(self, result: str) -> None:
         """Say which example is foretold worst."""
-        self.report({"INFO"}, result)
+        self.report({"INFO"}, told(result))

@@ -5,6 +5,7 @@ from typing import Any
 from bpy.props import EnumProperty
 from bpy.types import Context, Operator
 
+from ..facial_retarget_addon.translations import told
 from .in_steps import InSteps
 from .polls import OnPoints
 
@@ -48,5 +49,7 @@ class FACIAL_RETARGET_OT_make_shapes(OnPoints, InSteps, Operator):
         """Say which shapes could not be made."""
         if result.still:
             names = ", ".join(result.still)
-            self.report({"WARNING"}, f"{len(result.still)} shapes have no points on this face and stay empty: {names}")
-        self.report({"INFO"}, f"{len(result.made)} shapes made, {len(result.kept)} kept")
+            self.report(
+                {"WARNING"}, told(f"{len(result.still)} shapes have no points on this face and stay empty: {names}")
+            )
+        self.report({"INFO"}, told(f"{len(result.made)} shapes made, {len(result.kept)} kept"))

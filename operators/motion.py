@@ -8,6 +8,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, St
 from bpy.types import Context, Operator
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
+from ..facial_retarget_addon.translations import told
 from .in_steps import FromBrowser, InSteps
 from .over_frames import OverFrames
 from .polls import OnFace
@@ -91,8 +92,8 @@ class FACIAL_RETARGET_OT_import_motion(OnFace, FromBrowser, ImportHelper, InStep
     def finish(self, result: Any) -> None:
         """Pass on the warnings."""
         for warning in result.warnings:
-            self.report({"WARNING"}, warning)
-        self.report({"INFO"}, f"{result.count} frames imported, up to scene frame {result.last:.0f}")
+            self.report({"WARNING"}, told(warning))
+        self.report({"INFO"}, told(f"{result.count} frames imported, up to scene frame {result.last:.0f}"))
 
 
 class FACIAL_RETARGET_OT_export_motion(OnFace, OverFrames, FromBrowser, ExportHelper, InSteps, Operator):

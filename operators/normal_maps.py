@@ -5,6 +5,7 @@ from typing import Any
 from bpy.types import Context, Operator
 
 from ..facial_retarget_addon.core.methods.settings import LEVELED
+from ..facial_retarget_addon.translations import told
 from .in_steps import InSteps
 from .polls import OnTask
 
@@ -22,7 +23,7 @@ class FACIAL_RETARGET_OT_make_normal_maps(OnTask, InSteps, Operator):
         """As `OnTask`; the method must work level by level, and a folder be chosen."""
         task = context.scene.facial_retarget
         if task.method not in LEVELED:
-            cls.poll_message_set(f"This method has no levels; {' and '.join(LEVELED)} have")
+            cls.poll_message_set(told(f"This method has no levels; {' and '.join(LEVELED)} have"))
             return False
         if not task.normal_maps.folder:
             cls.poll_message_set("Choose a folder for the maps")
@@ -38,5 +39,5 @@ class FACIAL_RETARGET_OT_make_normal_maps(OnTask, InSteps, Operator):
     def finish(self, result: Any) -> None:
         """Say where they are, and which materials do not show them."""
         for warning in result.warnings:
-            self.report({"WARNING"}, warning)
-        self.report({"INFO"}, f"Normal maps of {result.thing.name!r} in {result.folder}")
+            self.report({"WARNING"}, told(warning))
+        self.report({"INFO"}, told(f"Normal maps of {result.thing.name!r} in {result.folder}"))

@@ -4,6 +4,7 @@ from bpy.props import FloatVectorProperty, StringProperty
 from bpy.types import Context, Event, Operator
 
 from ..facial_retarget_addon.core.errors import RetargetError
+from ..facial_retarget_addon.translations import told
 from .errors import tells_user
 from .polls import in_mode
 
@@ -18,7 +19,7 @@ class WithTool:
 
     def answer(self, error: Exception) -> set[str]:
         """Say in the status bar what is wrong."""
-        self.report({"WARNING"}, str(error))
+        self.report({"WARNING"}, told(str(error)))
         return {"CANCELLED"}
 
 

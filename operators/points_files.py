@@ -6,6 +6,7 @@ from bpy.props import StringProperty
 from bpy.types import Context, Operator
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
+from ..facial_retarget_addon.translations import told
 from .errors import tells_user
 from .polls import OnFace, OnPoints
 
@@ -32,7 +33,7 @@ class FACIAL_RETARGET_OT_load_points(OnFace, Operator, ImportHelper):
         points = read_points(Path(self.filepath), neutral_mesh(thing))
         write_points(thing, points)
         update_predictions(thing)
-        self.report({"INFO"}, f"{len(points)} feature points on {thing.name}")
+        self.report({"INFO"}, told(f"{len(points)} feature points on {thing.name}"))
         return {"FINISHED"}
 
 
@@ -55,5 +56,5 @@ class FACIAL_RETARGET_OT_save_points(OnPoints, Operator, ExportHelper):
         thing = context.active_object
         points = read_points(thing)
         write_points(points, Path(self.filepath), len(thing.data.vertices))
-        self.report({"INFO"}, f"{len(points)} feature points saved")
+        self.report({"INFO"}, told(f"{len(points)} feature points saved"))
         return {"FINISHED"}

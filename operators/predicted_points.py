@@ -5,6 +5,7 @@ from typing import Any
 from bpy.props import EnumProperty, StringProperty
 from bpy.types import Context, Operator
 
+from ..facial_retarget_addon.translations import told
 from .errors import tells_user
 from .in_steps import InSteps
 from .polls import OnFace, OnPoints, OnProposals
@@ -32,9 +33,9 @@ class FACIAL_RETARGET_OT_guess_points(OnFace, InSteps, Operator):
         """Say how sure it is."""
         count = len(self._thing.facial_retarget.proposals)
         if result < SURE:
-            self.report({"WARNING"}, f"{count} points proposed, but {self._thing.name} hardly looks like a face")
+            self.report({"WARNING"}, told(f"{count} points proposed, but {self._thing.name} hardly looks like a face"))
         else:
-            self.report({"INFO"}, f"{count} points proposed: move what is wrong, then accept them")
+            self.report({"INFO"}, told(f"{count} points proposed: move what is wrong, then accept them"))
 
 
 class FACIAL_RETARGET_OT_mirror_points(OnPoints, Operator):
@@ -61,7 +62,7 @@ class FACIAL_RETARGET_OT_mirror_points(OnPoints, Operator):
 
         thing = context.active_object
         placed = mirror_points(thing, names_to_mirror(thing, self.which))
-        self.report({"INFO"}, f"{len(placed)} points mirrored")
+        self.report({"INFO"}, told(f"{len(placed)} points mirrored"))
         return {"FINISHED"}
 
 
@@ -97,7 +98,7 @@ class FACIAL_RETARGET_OT_accept_points(OnProposals, Operator):
         from ..facial_retarget_addon.bridge.points.point_prediction import accept_proposals
 
         count = accept_proposals(context.active_object)
-        self.report({"INFO"}, f"{count} feature points accepted")
+        self.report({"INFO"}, told(f"{count} feature points accepted"))
         return {"FINISHED"}
 
 

@@ -2,6 +2,7 @@
 
 from bpy.types import Context, Operator
 
+from ..facial_retarget_addon.translations import told
 from .errors import tells_user
 from .polls import OnFace
 
@@ -25,15 +26,14 @@ class FACIAL_RETARGET_OT_refresh_points(OnFace, Operator):
         thing = context.active_object
         settled = refresh_points(thing)
         update_predictions(thing)
-        said = []
+        said = [f"{thing.name}: {len(thing.facial_retarget.points)} points"]
         if settled.moved:
             worst = sorted(settled.moved, key=settled.moved.get, reverse=True)
-            shown = ", ".join(f"{name} by {settled.moved[name]:.3g}" for name in worst[:SHOWN])
+            shown = ", ".join(f"{name}: {settled.moved[name]:.3g}" for name in worst[:SHOWN])
             said.append(f"{len(worst)} moved with the surface ({shown}{', ...' if len(worst) > SHOWN else ''})")
         if settled.lost:
             said.append(f"only proposed now, as the surface is gone: {', '.join(settled.lost)}")
-        what = "; ".join(said) or "all are where they were"
-        self.report(
-            {"WARNING" if settled.lost else "INFO"}, f"{thing.name}: {len(thing.facial_retarget.points)} points; {what}"
-        )
+        if len(said) == 1:
+            said.append("all are where they were")
+        self.report({"WARNING" if settled.lost else "INFO"}, told("; ".join(said)))
         return {"FINISHED"}

@@ -4,6 +4,7 @@ from typing import Any
 
 from bpy.types import Context, Operator
 
+from ..facial_retarget_addon.translations import told
 from .in_steps import InSteps
 from .polls import OnTask
 
@@ -25,5 +26,5 @@ class FACIAL_RETARGET_OT_retarget(OnTask, InSteps, Operator):
     def finish(self, result: dict[str, Any]) -> None:
         """Pass on the report's warnings."""
         for warning in result.get("warnings", ()):
-            self.report({"WARNING"}, warning)
+            self.report({"WARNING"}, told(warning))
         self.report({"INFO"}, "Retargeted")

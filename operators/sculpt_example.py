@@ -3,6 +3,7 @@
 from bpy.props import EnumProperty, StringProperty
 from bpy.types import Context, Operator
 
+from ..facial_retarget_addon.translations import filled, told
 from .errors import tells_user
 from .polls import OnTask, in_mode
 
@@ -32,8 +33,13 @@ class FACIAL_RETARGET_OT_sculpt_example(OnTask, Operator):
     def description(cls, context: Context, properties: "FACIAL_RETARGET_OT_sculpt_example") -> str:
         """The tooltip names the face."""
         face = getattr(context.scene.facial_retarget, properties.side.lower())
-        named = f"{properties.example} on {face.name}" if face is not None else "this example"
-        return f"Sculpt {named}: Sculpt Mode on its shape key, which alone is shown; Done brings back what was before"
+        if face is None:
+            return filled(cls.__doc__)
+        text = (
+            "Sculpt {example} on {face}: Sculpt Mode on its shape key, which alone is shown; "
+            "Done brings back what was before"
+        )
+        return filled(text, example=properties.example, face=face.name)
 
     @tells_user
     def execute(self, context: Context) -> set[str]:
@@ -42,7 +48,7 @@ class FACIAL_RETARGET_OT_sculpt_example(OnTask, Operator):
         from ..facial_retarget_addon.bridge.examples.examples import chosen_example
 
         thing = start_sculpting(context, chosen_example(context.scene.facial_retarget, self.example), self.side)
-        self.report({"INFO"}, f"Sculpting {thing.active_shape_key.name} on {thing.name}")
+        self.report({"INFO"}, told(f"Sculpting {thing.active_shape_key.name} on {thing.name}"))
         return {"FINISHED"}
 
 

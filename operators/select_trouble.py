@@ -4,6 +4,7 @@ from bpy.props import EnumProperty
 from bpy.types import Context, Operator
 
 from ..facial_retarget_addon import guide
+from ..facial_retarget_addon.translations import told
 from .errors import tells_user
 from .polls import in_mode
 
@@ -41,5 +42,5 @@ class FACIAL_RETARGET_OT_select_trouble(Operator):
         from ..facial_retarget_addon.bridge.reports.findings import select_spots
 
         count = select_spots(guide.found_face(context), self.kind)
-        self.report({"INFO"}, f"{count} vertices selected")
+        self.report({"INFO"}, told(f"{count} vertices selected"))
         return {"FINISHED"}

@@ -8,6 +8,7 @@ from bpy.types import Context, Operator
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
 from ..facial_retarget_addon.properties.cloning import EXISTING_KEYS
+from ..facial_retarget_addon.translations import told
 from .in_steps import FromBrowser, InSteps
 from .polls import OnFace
 
@@ -33,7 +34,7 @@ class FACIAL_RETARGET_OT_load_shapes(OnFace, FromBrowser, ImportHelper, InSteps,
 
     def finish(self, result: Any) -> None:
         """Count them."""
-        self.report({"INFO"}, f"{result.made} shape keys loaded, {result.kept} kept")
+        self.report({"INFO"}, told(f"{result.made} shape keys loaded, {result.kept} kept"))
 
 
 class FACIAL_RETARGET_OT_save_shapes(OnFace, FromBrowser, ExportHelper, InSteps, Operator):
@@ -55,4 +56,4 @@ class FACIAL_RETARGET_OT_save_shapes(OnFace, FromBrowser, ExportHelper, InSteps,
 
     def finish(self, result: int) -> None:
         """Count them."""
-        self.report({"INFO"}, f"{result} shape keys saved")
+        self.report({"INFO"}, told(f"{result} shape keys saved"))

@@ -4,6 +4,7 @@ from typing import Any
 
 from bpy.types import Context, Operator
 
+from ..facial_retarget_addon.translations import told
 from .in_steps import InSteps
 from .polls import OnTask
 
@@ -25,5 +26,5 @@ class FACIAL_RETARGET_OT_show_base(OnTask, InSteps, Operator):
     def finish(self, result: Any) -> None:
         """Pass on the warnings."""
         for warning in result.warnings:
-            self.report({"WARNING"}, warning)
-        self.report({"INFO"}, f"Base mesh of {len(result.names)} points and {len(result.faces)} triangles")
+            self.report({"WARNING"}, told(warning))
+        self.report({"INFO"}, told(f"Base mesh of {len(result.names)} points and {len(result.faces)} triangles"))

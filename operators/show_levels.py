@@ -5,6 +5,7 @@ from typing import Any
 from bpy.types import Context, Operator
 
 from ..facial_retarget_addon.core.methods.settings import LEVELED
+from ..facial_retarget_addon.translations import told
 from .in_steps import InSteps
 from .polls import OnTask
 
@@ -21,7 +22,7 @@ class FACIAL_RETARGET_OT_show_levels(OnTask, InSteps, Operator):
     def poll(cls, context: Context) -> bool:
         """As `OnTask`; the method must work level by level."""
         if context.scene.facial_retarget.method not in LEVELED:
-            cls.poll_message_set(f"This method has no levels; {' and '.join(LEVELED)} have")
+            cls.poll_message_set(told(f"This method has no levels; {' and '.join(LEVELED)} have"))
             return False
         return super().poll(context)
 
@@ -33,4 +34,4 @@ class FACIAL_RETARGET_OT_show_levels(OnTask, InSteps, Operator):
 
     def finish(self, result: list[str]) -> None:
         """Name the levels."""
-        self.report({"INFO"}, f"Levels: {', '.join(result)}")
+        self.report({"INFO"}, told(f"Levels: {', '.join(result)}"))

@@ -3,6 +3,7 @@
 from bpy.types import Context, Panel, PropertyGroup, UILayout, UIList
 
 from ..facial_retarget_addon.manual import CLONING
+from ..facial_retarget_addon.translations import told
 from .tab import RetargetTab, WithManual
 
 
@@ -14,8 +15,8 @@ class FACIAL_RETARGET_UL_cloned(UIList):
     ) -> None:
         """Draw a row."""
         row = layout.row(align=True)
-        row.label(text=item.name)
-        row.label(text=item.note)
+        row.label(text=item.name, translate=False)
+        row.label(text=told(item.note), translate=False)
         row.prop(item, "corrected", text="")
 
 

@@ -2,7 +2,8 @@
 
 from bpy.types import Context, Panel, PropertyGroup, UILayout, UIList
 
-from .tab import Step, draw_text, filled
+from ..facial_retarget_addon.translations import filled, told
+from .tab import Step, draw_text
 
 
 class FACIAL_RETARGET_UL_examples(UIList):
@@ -69,7 +70,7 @@ class FACIAL_RETARGET_PT_examples(Step, Panel):
 def _draw_chosen(layout: UILayout, context: Context, example: PropertyGroup) -> None:
     """What is wrong with the chosen example, how well it is met, and what can be done with it on either face."""
     if example.warning:
-        draw_text(layout, context, example.warning, "ERROR")
+        draw_text(layout, context, told(example.warning), "ERROR")
     if example.checked and example.leave_one_out < 0:
         draw_text(layout, context, filled("Met but for {fit:.1%} of its motion", fit=example.fit), "CHECKMARK")
     elif example.checked:

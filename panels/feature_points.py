@@ -2,7 +2,8 @@
 
 from bpy.types import Context, Panel, PropertyGroup, UI_UL_list, UILayout, UIList
 
-from .tab import RetargetTab, Step, draw_text, filled
+from ..facial_retarget_addon.translations import filled, told
+from .tab import RetargetTab, Step, draw_text
 
 LISTS = {"PLACED": ("points", "active_point"), "PROPOSED": ("proposals", "active_proposal")}
 LISTS |= {"SKIPPED": ("skipped", "active_skipped")}
@@ -111,6 +112,6 @@ def _draw_list(layout: UILayout, context: Context, face: PropertyGroup) -> None:
     if active in range(len(stored)):
         point = stored[active]
         if face.point_list == "PLACED" and point.doubt:
-            draw_text(layout, context, filled("Doubtful: {why}", why=point.doubt), "ERROR")
+            draw_text(layout, context, filled("Doubtful: {why}", why=told(point.doubt)), "ERROR")
         elif point.meaning:
             draw_text(layout, context, point.meaning, "BLANK1")

@@ -3,7 +3,8 @@
 from bpy.types import Context, Panel, UILayout
 
 from ..facial_retarget_addon.bake_cost import bake_cost
-from .tab import RetargetTab, Step, draw_text, filled
+from ..facial_retarget_addon.translations import filled
+from .tab import RetargetTab, Step, draw_text
 
 
 class FACIAL_RETARGET_PT_retarget(Step, Panel):

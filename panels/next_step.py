@@ -4,7 +4,8 @@ from bpy.types import Context, Panel, UILayout
 
 from ..facial_retarget_addon import guide
 from ..facial_retarget_addon.time_left import spoken
-from .tab import RetargetTab, draw_text, filled
+from ..facial_retarget_addon.translations import filled
+from .tab import RetargetTab, draw_text
 
 
 class FACIAL_RETARGET_PT_next(RetargetTab, Panel):

@@ -5,7 +5,8 @@ from collections.abc import Iterable
 from bpy.types import Context, Panel, PropertyGroup, UILayout, UIList
 
 from ..facial_retarget_addon.preview_state import COLUMNS, STATE, strengths
-from .tab import RetargetTab, draw_text, filled
+from ..facial_retarget_addon.translations import filled, told
+from .tab import RetargetTab, draw_text
 
 
 class FACIAL_RETARGET_PT_preview(RetargetTab, Panel):
@@ -25,7 +26,7 @@ class FACIAL_RETARGET_PT_preview(RetargetTab, Panel):
         row.operator("facial_retarget.start_preview", text="", icon="FILE_REFRESH")
         for text in (STATE.trouble, STATE.stale):
             if text:
-                draw_text(layout, context, text, icon="ERROR")
+                draw_text(layout, context, told(text), icon="ERROR")
         layout.label(text=filled("{milliseconds:.1f} ms a frame", milliseconds=STATE.milliseconds), icon="TIME")
 
 

@@ -3,6 +3,7 @@
 from bpy.types import Context, Panel, PropertyGroup, UILayout, UIList
 
 from ..facial_retarget_addon import guide
+from ..facial_retarget_addon.translations import told
 from .tab import Step, draw_text
 
 ICONS = {"FRAME": "KEYFRAME", "KEY": "SHAPEKEY_DATA"}
@@ -63,7 +64,7 @@ class FACIAL_RETARGET_PT_report(Step, Panel):
         column.prop(task, "page")
 
     def _draw_findings(self, layout: UILayout, context: Context, face: PropertyGroup) -> None:
-        draw_text(layout, context, f"{face.id_data.name}: {face.findings_text}")
+        draw_text(layout, context, f"{face.id_data.name}: {told(face.findings_text)}")
         if not len(face.findings):
             return
         headings = layout.split(factor=NAMES)

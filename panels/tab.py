@@ -1,11 +1,11 @@
 """Where the panels stand, and what the steps of the work have in common."""
 
 import blf
-from bpy.app.translations import pgettext_iface
 from bpy.types import Context, UILayout
 
 from ..facial_retarget_addon import guide
 from ..facial_retarget_addon.manual import STEPS
+from ..facial_retarget_addon.translations import filled as filled
 
 ICONS = {"DONE": "CHECKMARK", "NOW": "RADIOBUT_ON", "OPEN": "RADIOBUT_OFF"}
 """How far a step is -> the icon in its header."""
@@ -72,8 +72,3 @@ def lines(text: str, width: float) -> list[str]:
         else:
             found[-1] = longer
     return found
-
-
-def filled(text: str, **fields: object) -> str:
-    """A text of the interface in the artist's language, with its fields filled in."""
-    return pgettext_iface(text).format(**fields)

@@ -20,7 +20,7 @@ ROOMS = {
     ),
     "viewport": (
         {"numpy", "bpy", "mathutils", "bpy_extras", "gpu", "gpu_extras", "blf"},
-        {"core", "bridge", "properties", "viewport"},
+        {"core", "bridge", "properties", "translations", "viewport"},
     ),
 }
 """Room -> the packages from outside it may import, and the rooms it may import."""

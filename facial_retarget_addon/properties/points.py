@@ -1,5 +1,6 @@
 """Feature points on a face, and which of them it shall have."""
 
+from bpy.app.translations import pgettext_iface
 from bpy.props import BoolProperty, FloatVectorProperty, IntVectorProperty, StringProperty
 from bpy.types import PropertyGroup
 
@@ -8,12 +9,12 @@ from ..core.point_sets import point_label, point_meaning
 
 def _title(point: PropertyGroup) -> str:
     label = point_label(point.name)
-    return label if label == point.name else f"{point.name}  {label}"
+    return label if label == point.name else f"{point.name}  {pgettext_iface(label)}"
 
 
 def _meaning(point: PropertyGroup) -> str:
     meaning = point_meaning(point.name)
-    return meaning[:1].upper() + meaning[1:]
+    return pgettext_iface(meaning[:1].upper() + meaning[1:])
 
 
 class FACIAL_RETARGET_PG_feature_point(PropertyGroup):

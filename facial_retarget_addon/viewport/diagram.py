@@ -8,12 +8,14 @@ from functools import cache
 import bpy
 import gpu
 import numpy as np
+from bpy.app.translations import pgettext_iface
 from bpy.types import Context
 from gpu.types import GPUBatch
 from gpu_extras.batch import batch_for_shader
 from mathutils import Matrix
 
 from ..core.point_sets import DIAGRAM_HIGH, DIAGRAM_LOW, POINT_INFOS, POINT_SETS, PointInfo
+from ..translations import filled
 from .face_lines import face_lines
 from .labels import draw_boxes, draw_text, text_width
 from .marks import PLACED, SELECTED, draw_marks, mark_batch
@@ -34,7 +36,7 @@ def draw_diagram(context: Context) -> None:
         return
     scale = context.preferences.system.ui_scale
     info = POINT_INFOS[thing.facial_retarget.turn]
-    lines = wrapped(info.meaning, (WIDTH - 2 * INSET) * scale, scale)[:LINES]
+    lines = wrapped(pgettext_iface(info.meaning), (WIDTH - 2 * INSET) * scale, scale)[:LINES]
     unit = (WIDTH - 2 * INSET) * scale / (_RIGHT - _LEFT)
     words = (INSET + 34 + 13 * len(lines)) * scale
     top = MARGIN * scale + words + unit * (_HIGH - _LOW) + INSET * scale
@@ -48,7 +50,8 @@ def draw_diagram(context: Context) -> None:
     placed = [name for name in wanted if name in thing.facial_retarget.points]
     _draw_face(at, unit, scale)
     _draw_points(at, unit, scale, info.name, tuple(placed))
-    _draw_words(info, lines, f"{len(placed)} of {len(wanted)}", (left + INSET * scale, right - INSET * scale, bottom))
+    count = filled("{placed} of {wanted}", placed=len(placed), wanted=len(wanted))
+    _draw_words(info, lines, count, (left + INSET * scale, right - INSET * scale, bottom))
 
 
 def _draw_words(info: PointInfo, lines: Sequence[str], count: str, place: tuple[float, float, float]) -> None:
@@ -56,7 +59,7 @@ def _draw_words(info: PointInfo, lines: Sequence[str], count: str, place: tuple[
     scale = bpy.context.preferences.system.ui_scale
     left, right, bottom = place
     y = bottom + (INSET + 13 * len(lines)) * scale
-    draw_text(info.label, left, y + 17 * scale, scale, 12)
+    draw_text(pgettext_iface(info.label), left, y + 17 * scale, scale, 12)
     draw_text(info.name if info.name[0].isdigit() else "", left, y + 3 * scale, scale, 10, FAINT)
     draw_text(count, right - text_width(count, scale, 10), y + 3 * scale, scale, 10, FAINT)
     for i, line in enumerate(lines):

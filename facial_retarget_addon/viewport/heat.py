@@ -13,6 +13,7 @@ from gpu_extras.batch import batch_for_shader
 from mathutils import Matrix
 
 from ..core.errors import RetargetError
+from ..translations import filled
 from .changes import look
 from .labels import PAPER, draw_boxes, draw_text, text_width
 from .shaders import RAMP, drawing, heat_shader, lens
@@ -98,7 +99,7 @@ def draw_legend(context: Context, thing: Object) -> str:
         return heat.trouble
     ui = context.preferences.system.ui_scale
     scale = SCALES[context.scene.facial_retarget.overlay.heat]
-    title = f"{scale.title}; largest {scale.form.format(heat.largest)}"
+    title = f"{filled(scale.title)}; {filled('largest {value}', value=scale.form.format(heat.largest))}"
     left, bottom, wide, tall = 78 * ui, 52 * ui, 190 * ui, 10 * ui
     right = left + max(wide, text_width(title, ui)) + 8 * ui
     draw_boxes([(left - 8 * ui, bottom - 20 * ui, right, bottom + tall + 22 * ui)], PAPER)

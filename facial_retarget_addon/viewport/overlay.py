@@ -8,10 +8,12 @@ from typing import Any
 import bpy
 import gpu
 from bpy.app.handlers import persistent
+from bpy.app.translations import pgettext_iface
 from bpy.types import Context, Object, SpaceView3D
 from mathutils import Matrix
 
 from ..core.point_sets import point_label
+from ..translations import filled, told
 from . import base, heat, trouble
 from .base import base_batches
 from .diagram import draw_diagram
@@ -88,7 +90,7 @@ def _draw_pixels() -> None:
     troubles += [base.trouble()] if wanted.show_base else []
     if wanted.show_heat and (hot := heated(context)) is not None:
         troubles.append(draw_legend(context, hot))
-    draw_trouble(context, next(filter(None, troubles), ""))
+    draw_trouble(context, told(next(filter(None, troubles), "")))
 
 
 def _draw_names(context: Context, scale: float, every: bool) -> None:
@@ -131,9 +133,11 @@ def _full_name(marks: FaceMarks, row: int) -> str:
     """Number, label, and what is wrong with a point."""
     name = marks.names[row]
     label = point_label(name)
-    text = label if name in (label, "") or not name[0].isdigit() else f"{name} {label}"
-    proposed = " (proposed)" if row >= marks.placed else ""
-    return f"{text}{proposed}" if name not in marks.doubts else f"{text}: {marks.doubts[name]}"
+    shown = pgettext_iface(label)
+    text = shown if name in (label, "") or not name[0].isdigit() else f"{name} {shown}"
+    if name in marks.doubts:
+        return f"{text}: {told(marks.doubts[name])}"
+    return filled("{label} (proposed)", label=text) if row >= marks.placed else text
 
 
 @persistent
