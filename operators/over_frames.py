@@ -5,6 +5,8 @@ from typing import Any
 from bpy.props import IntProperty
 from bpy.types import Context, Event
 
+from ..facial_retarget_addon.translations import told
+
 
 class OverFrames:
     """For operators in steps that export scene frames, and give back `bridge.motion.motion_export.Exported`."""
@@ -20,5 +22,5 @@ class OverFrames:
     def finish(self, result: Any) -> None:
         """Pass on the warnings."""
         for warning in result.warnings:
-            self.report({"WARNING"}, warning)
-        self.report({"INFO"}, f"{result.count} frames exported from {result.source}")
+            self.report({"WARNING"}, told(warning))
+        self.report({"INFO"}, told(f"{result.count} frames exported from {result.source}"))

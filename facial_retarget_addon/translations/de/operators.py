@@ -314,6 +314,31 @@ TEXTS = {
     "Enable the add-on glTF 2.0 Format in the preferences": (
         "Das Add-on „glTF 2.0 format“ in den Einstellungen einschalten"
     ),
+    "Export Curves": "Kurven exportieren",
+    "Export the curves of the target's shape keys as a table or a document, frame by frame; Esc stops": (
+        "Die Kurven der Formschlüssel des Ziels als Tabelle oder Dokument exportieren, Bild für Bild; Esc hält an"
+    ),
+    "Table (.csv)": "Tabelle (.csv)",
+    "A line for each frame and a column for each shape key, as spreadsheets read it": (
+        "Eine Zeile je Bild und eine Spalte je Formschlüssel, wie Tabellenprogramme es lesen"
+    ),
+    "Document (.json)": "Dokument (.json)",
+    "A list of values for each shape key, with the frames and their rate": (
+        "Eine Liste von Werten je Formschlüssel, mit den Bildern und ihrer Rate"
+    ),
+    "Scene frames from one exported frame to the next; below 1 for sub-frames": (
+        "Bilder der Szene von einem exportierten Bild zum nächsten; unter 1 für Zwischenbilder"
+    ),
+    "The target has no shape keys: bake the performance as some": (
+        "Das Ziel hat keine Formschlüssel: die Darbietung als solche backen"
+    ),
+    "Export FAPs": "FAPs exportieren",
+    "Export the MPEG-4 FAPs that drive the target, as its controls stand frame by frame; Esc stops": (
+        "Die MPEG-4-FAPs exportieren, die das Ziel bewegen, wie seine Regler Bild für Bild stehen; Esc hält an"
+    ),
+    "No FAPs drive the target: Export Motion, under MPEG-4 Face, measures them on its mesh": (
+        "Keine FAPs bewegen das Ziel: Bewegung exportieren, unter MPEG-4-Gesicht, misst sie an der Masche"
+    ),
     "Make Normal Maps": "Normalmaps erstellen",
     "Make a normal map of each frame, which gives a light mesh the wrinkles of the finest level; Esc stops": (
         "Von jedem Bild eine Normalmap erstellen, die einer leichten Masche die Falten der feinsten Stufe gibt; "

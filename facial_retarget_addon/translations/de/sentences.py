@@ -85,6 +85,7 @@ SENTENCES = {
     "finding what each point moves": "sucht, was jeder Punkt bewegt",
     "placing the pixels": "setzt die Pixel",
     "normal map {} of {}": "Normalmap {} von {}",
+    "looking for the wrinkles of {}": "sucht die Falten von {}",
     "preparing the motion": "bereitet die Bewegung vor",
     "making the wavelets": "erstellt die Wavelets",
     "making the base mesh": "erstellt die Basismasche",
@@ -186,6 +187,9 @@ SENTENCES = {
     # Motion in and out.
     "{} shape keys of object {} follow drivers, such as {}; expected keys that curves can move": (
         "{} Formschlüssel von Objekt {} folgen Treibern, etwa {}; gebraucht werden welche, die Kurven bewegen können"
+    ),
+    "object {} has no shape key, expected some whose curves could be exported": (
+        "Objekt {} hat keinen Formschlüssel, dessen Kurven exportiert werden könnten"
     ),
     "object {} has no shape key with an ARKit name, expected some such as jawOpen": (
         "Objekt {} hat keinen Formschlüssel mit einem ARKit-Namen wie jawOpen"
