@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from .core.methods.settings import CACHES
+
 PLENTY = 10_000_000
 """Vertex-frames from which shape keys for every frame are a burden: 120 MB in the file, as much again for each step of
 undo, and relative ones play slowly."""
@@ -34,7 +36,7 @@ def bake_cost(kind: str, vertices: int, frames: int, step: float = 1.0) -> Cost:
     """
     baked = int(frames / step) or 1
     whole = 12 * vertices * baked / 1e6
-    if kind in ("pc2", "mdd"):
+    if kind in CACHES:
         return Cost(0.0, whole)
     if kind == "compact":
         return Cost(12 * vertices * min(FEW_KEYS, baked) / 1e6, 0.0)

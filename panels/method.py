@@ -2,7 +2,7 @@
 
 from bpy.types import Context, Panel, UILayout
 
-from ..facial_retarget_addon.bake_cost import bake_cost
+from ..facial_retarget_addon.bake_cost import CACHES, bake_cost
 from ..facial_retarget_addon.translations import filled
 from .tab import RetargetTab, Step, draw_text
 
@@ -48,7 +48,7 @@ class FACIAL_RETARGET_PT_bake(RetargetTab, Panel):
             layout.prop(bake.how, name)
         if bake.how.kind in ("frames", "absolute"):
             layout.prop(bake, "pattern")
-        if bake.how.kind in ("pc2", "mdd"):
+        if bake.how.kind in CACHES:
             layout.prop(bake, "cache")
         layout.prop(bake, "step")
         if task.target is not None:

@@ -16,6 +16,7 @@ from ..files.pages.report import report_json, report_page
 from ..files.whole import Aside, written_whole
 from .background import Steps, in_thread, part
 from .bakes.bake import bake_steps, read_wish
+from .bakes.scene_cache import let_go
 from .heads import head_parts, read_head
 from .key_sets import check_targets
 from .performance import read_frames
@@ -62,7 +63,7 @@ def retarget_steps(context: Context) -> Steps[dict[str, Any]]:
     bake = yield from part(bake_steps(head, unit, result.frames, frames, wish), READING + COMPUTING, BAKING)
     result.report["bake"] = bake.figures
     yield READING + COMPUTING + BAKING, "Writing"
-    with written_whole() as aside:
+    with let_go(bake.files), written_whole() as aside:
         _add_report(aside, task, result, page)
         bake.add_files(aside)
     # What was previewed is there to stay now, and some kinds of bake leave no place for the preview's key.

@@ -17,6 +17,12 @@ BAKES = [
     ("rig", "Own Shape Keys", "Curves of the shape keys that the target has: your own sliders"),
     ("pc2", "PC2 Cache", "A file on disk that a Mesh Cache modifier plays: for long performances"),
     ("mdd", "MDD Cache", "The same, as older programs read it"),
+    (
+        "alembic",
+        "Alembic Cache",
+        "One file of all moved objects that other programs read, and a modifier that plays it",
+    ),
+    ("usd", "USD Cache", "The same as USD: .usdc, or .usd if you name it so"),
 ]
 
 

@@ -9,14 +9,14 @@ from typing import Any, NamedTuple
 from bpy.types import PropertyGroup
 
 from ...core.arrays import FloatArray, Progress
-from ...core.methods.settings import BakeSettings
+from ...core.methods.settings import CACHES, BakeSettings
 from ...core.reduction.bake_keys import BakedKeys, compact_keys, onto_rig
 from ...files.whole import Aside
 from ..background import Steps, in_thread
 from ..heads import Head
 from ..paths import chosen_path
 from ..settings import read_group
-from .cache import add_caches, cache_paths, play_caches, stop_caches
+from .cache import add_caches, cache_places, play_caches, with_suffix
 from .frames import check_frames, write_head_frames
 from .keyed import rig_keys, write_keyed
 
@@ -35,7 +35,7 @@ class Wish(NamedTuple):
         ------
         RetargetError : as `chosen_path`.
         """
-        return chosen_path(self.cache, "file", "cache", "Bake and Export").with_suffix(f".{self.settings.kind}")
+        return with_suffix(chosen_path(self.cache, "file", "cache", "Bake and Export"), self.settings.kind)
 
 
 def read_wish(task: PropertyGroup) -> Wish:
@@ -46,10 +46,12 @@ def read_wish(task: PropertyGroup) -> Wish:
 class PreparedBake(NamedTuple):
     """A bake of which nothing is written yet.
 
-    figures : for the report. add_files : writes its files among others that appear together. write : changes the scene.
+    figures : for the report. files : that it will write. add_files : writes them among others that appear together.
+    write : changes the scene.
     """
 
     figures: dict[str, Any]
+    files: list[Path]
     add_files: Callable[[Aside], None]
     write: Callable[[], None]
 
@@ -68,21 +70,23 @@ def bake_steps(head: Head, unit: float, frames: FloatArray, times: Sequence[floa
     kind = wish.settings.kind
     figures: dict[str, Any] = {"kind": kind, "frames": len(frames)}
     yield 0.0, "Preparing the bake"
-    if kind in ("pc2", "mdd"):
-        paths = cache_paths(head, wish.cache_path(), frames)
+    if kind in CACHES:
+        places = cache_places(head, wish.cache_path(), frames)
         return PreparedBake(
             figures,
-            lambda aside: add_caches(aside, head, paths, frames),
-            lambda: _write(head, kind, lambda: play_caches(paths, times)),
+            [place.path for place in places.values()],
+            lambda aside: add_caches(aside, head, places, frames, times),
+            lambda: _write(head, kind, lambda: play_caches(head, places, times)),
         )
     if kind in ("compact", "rig"):
         baked = yield from _keyed_steps(head, unit, frames, wish.settings)
         figures |= baked.figures(unit)
-        return PreparedBake(figures, _no_files, lambda: _write(head, kind, lambda: write_keyed(head, baked, times)))
+        return PreparedBake(figures, [], _no_files, lambda: _write(head, kind, lambda: write_keyed(head, baked, times)))
     check_frames(head, frames, times, wish.pattern, absolute=kind == "absolute")
     figures["keys"] = len(frames)
     return PreparedBake(
         figures,
+        [],
         _no_files,
         lambda: _write(head, kind, lambda: write_head_frames(head, frames, times, wish.pattern, kind == "absolute")),
     )
@@ -93,7 +97,6 @@ def _no_files(_: Aside) -> None:
 
 
 def _write(head: Head, kind: str, write: Callable[[], None]) -> None:
-    stop_caches(head.things)
     write()
     head.things[0].facial_retarget.bake = kind
 

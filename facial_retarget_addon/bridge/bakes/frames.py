@@ -5,17 +5,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from bpy.types import Action, Object
+from bpy.types import Action, Modifier, Object
 
 from ...core.arrays import FloatArray
 from ...core.errors import RetargetError
+from ...files.frames import FrameBlocks
 from ...guide import FRAME_NAMES
 from ..curves import ensure_curves, find_curves, remove_curves, write_curve
 from ..heads import Head
 from ..key_sets import key_names
 from ..meshes import from_face_space
 from ..shape_keys import ensure_basis, ensure_key, remove_keys, value_path, write_key
-from .names import baked_keys, frame_key_name, record_bake
+from .names import baked_keys, cache_modifier, frame_key_name, moved_keys, record_bake
+from .scene_cache import drop_cache
 
 STILL = 1e-6
 """Motion of a part below this share of the head's size is none."""
@@ -63,14 +65,12 @@ def write_head_frames(
     for thing in head.things:
         if thing not in moved:
             remove_bake(thing)
-    for thing, own in moved.items():
-        _write_own(thing, own_positions(head, thing, frames[:, own]), times, pattern, absolute, action)
+    for thing in moved:
+        _write_own(thing, OwnFrames(head, thing, frames), times, pattern, absolute, action)
         action = face.data.shape_keys.animation_data.action
 
 
-def check_frames(
-    head: Head, frames: FloatArray, times: Sequence[float], pattern: str, absolute: bool
-) -> dict[Object, slice]:
+def check_frames(head: Head, frames: FloatArray, times: Sequence[float], pattern: str, absolute: bool) -> list[Object]:
     """RetargetError if `write_head_frames` would refuse; else what `moved_objects` finds."""
     _check_count(head.things[0], frames[:, : head.starts[1]])
     moved = moved_objects(head, frames)
@@ -81,13 +81,31 @@ def check_frames(
     return moved
 
 
-def own_positions(head: Head, thing: Object, frames: FloatArray) -> FloatArray:
-    """(F, v, 3) in own coordinates: an object whose vertices stand at frames (F, v, 3) of the head."""
-    row = head.things.index(thing)
-    if row == 0:
-        return from_face_space(thing, frames)
-    rest = head.face.mesh.vertices[head.starts[row] : head.starts[row + 1]]
-    return head.positions(thing, frames - rest.astype(np.float32))
+class OwnFrames:
+    """Frames (F, V, 3) of a head as positions (F, v, 3) of one of its objects, in the object's own coordinates.
+
+    They are worked out as they are asked for, a few at a time: a copy of all would be as large as the frames.
+    """
+
+    def __init__(self, head: Head, thing: Object, frames: FloatArray) -> None:
+        row = head.things.index(thing)
+        own = slice(head.starts[row], head.starts[row + 1])
+        self._head, self._thing, self._frames = head, thing, frames[:, own]
+        self._rest = None if row == 0 else head.face.mesh.vertices[own].astype(np.float32)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """(F, v, 3)."""
+        return self._frames.shape
+
+    def __len__(self) -> int:
+        return len(self._frames)
+
+    def __getitem__(self, rows: slice) -> FloatArray:
+        """(f, v, 3) float32."""
+        if self._rest is None:
+            return from_face_space(self._thing, self._frames[rows])
+        return self._head.positions(self._thing, self._frames[rows] - self._rest)
 
 
 def time_step(times: Sequence[float]) -> float:
@@ -95,14 +113,14 @@ def time_step(times: Sequence[float]) -> float:
     return times[1] - times[0] if len(times) > 1 else 1
 
 
-def moved_objects(head: Head, frames: FloatArray) -> dict[Object, slice]:
-    """The face, and each part that frames (F, V, 3) move -> its vertices among the head's."""
-    slices = list(head.slices())
-    moved = {slices[0][0]: slices[0][1]}
-    for thing, own, _ in slices[1:]:
-        moves = frames[:, own] - head.face.mesh.vertices[own].astype(np.float32)
-        if np.abs(moves).max(initial=0.0) > STILL * head.face.mesh.size:
-            moved[thing] = own
+def moved_objects(head: Head, frames: FloatArray) -> list[Object]:
+    """The face, and each part that frames (F, V, 3) move."""
+    least = STILL * head.face.mesh.size
+    moved = [head.things[0]]
+    for thing, own, _ in list(head.slices())[1:]:
+        rest = head.face.mesh.vertices[own].astype(np.float32)
+        if any(np.abs(frame - rest).max(initial=0.0) > least for frame in frames[:, own]):
+            moved.append(thing)
     return moved
 
 
@@ -125,7 +143,7 @@ def _check_own_keys(thing: Object, absolute: bool) -> None:
 
 def _write_own(
     thing: Object,
-    positions: FloatArray,
+    positions: FrameBlocks,
     times: Sequence[float],
     pattern: str,
     absolute: bool,
@@ -135,8 +153,8 @@ def _write_own(
     names = [frame_key_name(pattern, time) for time in times]
     ensure_basis(thing)
     remove_bake(thing, keep=set(names))
-    for name, places in zip(names, positions, strict=True):
-        write_key(ensure_key(thing, name), places)
+    for row, name in enumerate(names):
+        write_key(ensure_key(thing, name), positions[row : row + 1])
     keys = thing.data.shape_keys
     keys.use_relative = not absolute
     bag = ensure_curves(keys, f"{keys.name} retargeted", shared)
@@ -154,14 +172,43 @@ def _write_own(
 
 
 def remove_bake(thing: Object, keep: set[str] = frozenset()) -> None:
-    """Remove the shape keys of an earlier bake, but not those to keep, and the curves of all of them."""
+    """Remove what plays an object's newest bake: its shape keys but those to keep, its curves, a cache's modifier.
+
+    Shape keys of the artist's that the bake moved rest at 0; the files of a cache stay.
+    """
+    remove_cache_modifier(thing, cache_modifier(thing))
     keys = thing.data.shape_keys
     if keys is None:
         return
-    baked = baked_keys(thing)
+    baked, moved = baked_keys(thing), moved_keys(thing)
     bag = find_curves(keys)
     if bag is not None:
-        remove_curves(bag, {value_path(name) for name in baked} | ({"eval_time"} if baked else set()))
+        remove_curves(bag, bake_paths(baked, moved))
+    for name in moved:
+        keys.key_blocks[name].value = 0.0
     remove_keys(thing, [name for name in baked if name not in keep])
     if baked:
         keys.use_relative = True
+    record_bake(thing, keep)
+
+
+def remove_bakes(things: Sequence[Object]) -> None:
+    """Remove the newest bake of a head: of its face, which comes first, and of its parts."""
+    for thing in things:
+        remove_bake(thing)
+    things[0].facial_retarget.bake = ""
+
+
+def bake_paths(baked: Sequence[str], moved: Sequence[str]) -> set[str]:
+    """Data paths of the curves of a bake: of the shape keys that it has made, and of those that it moved."""
+    return {value_path(name) for name in [*baked, *moved]} | ({"eval_time"} if baked else set())
+
+
+def remove_cache_modifier(thing: Object, modifier: Modifier | None) -> None:
+    """Remove the modifier that plays a bake's cache, if there is one, and a cache file that nothing else plays."""
+    if modifier is None:
+        return
+    cache = modifier.cache_file if modifier.type == "MESH_SEQUENCE_CACHE" else None
+    thing.modifiers.remove(modifier)
+    if cache is not None:
+        drop_cache(cache)

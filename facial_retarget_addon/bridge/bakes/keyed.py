@@ -64,11 +64,11 @@ def write_keyed(head: Head, baked: BakedKeys, times: Sequence[float]) -> None:
         keys = thing.data.shape_keys
         bag = ensure_curves(keys, f"{keys.name} retargeted", action)
         action = action or keys.animation_data.action
-        paths = {value_path(names[row]) for row in mine}
-        remove_curves(bag, paths)
+        moved = [names[row] for row in mine]
+        remove_curves(bag, {value_path(name) for name in moved})
         for row in [*mine, *new]:
             write_curve(bag, value_path(names[row]), np.array(times, float), keyed.curves[:, row])
-        record_bake(thing, [names[row] for row in new])
+        record_bake(thing, [names[row] for row in new], moved)
         thing.data.update()
 
 

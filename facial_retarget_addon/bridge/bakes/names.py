@@ -5,13 +5,17 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
-from bpy.types import Object
+from bpy.types import Modifier, Object
 
 from ...core.errors import RetargetError
 from ..shape_keys import find_key
 
 RECORD = "facial_retarget_baked"
 """Property of a shape-key block: the names of the keys that a bake has made, one a line."""
+MOVED = "facial_retarget_moved"
+"""The same for the keys that were there, and that a bake has given curves."""
+MODIFIER = "Facial Retarget"
+"""Name of the modifier that plays the cache of a bake."""
 LONGEST = 63
 """Bytes of a name that Blender keeps."""
 _FRAME = re.compile(r"frame_-?\d{3,}(\.\d+)?")
@@ -44,6 +48,22 @@ def baked_keys(thing: Object) -> list[str]:
     return [key.name for key in keys.key_blocks if key.name in recorded or _FRAME.fullmatch(key.name)]
 
 
-def record_bake(thing: Object, names: Iterable[str]) -> None:
-    """Remember which shape keys a bake has made on an object."""
-    thing.data.shape_keys[RECORD] = "\n".join(name for name in names if find_key(thing, name) is not None)
+def moved_keys(thing: Object) -> list[str]:
+    """Names of an object's own shape keys that a bake has given curves."""
+    keys = thing.data.shape_keys
+    if keys is None:
+        return []
+    return [name for name in str(keys.get(MOVED, "")).split("\n") if name in keys.key_blocks]
+
+
+def cache_modifier(thing: Object) -> Modifier | None:
+    """The modifier that plays the cache of a bake."""
+    modifier = thing.modifiers.get(MODIFIER)
+    return modifier if modifier is not None and modifier.type in ("MESH_CACHE", "MESH_SEQUENCE_CACHE") else None
+
+
+def record_bake(thing: Object, names: Iterable[str], moved: Iterable[str] = ()) -> None:
+    """Remember which shape keys a bake has made on an object, and which of its own it has given curves."""
+    keys = thing.data.shape_keys
+    keys[RECORD] = "\n".join(name for name in names if find_key(thing, name) is not None)
+    keys[MOVED] = "\n".join(moved)

@@ -179,6 +179,10 @@ class MapSettings:
     )
 
 
+CACHES = {"pc2": (".pc2",), "mdd": (".mdd",), "alembic": (".abc",), "usd": (".usdc", ".usd")}
+"""Kind of a bake that becomes files -> their suffixes, the usual one first."""
+
+
 @dataclass(frozen=True)
 class WrinkleSettings(MapSettings):
     """How a wrinkle kit is made and written."""
@@ -195,8 +199,8 @@ class BakeSettings:
     kind: str = _setting(
         "frames",
         "frames: a shape key per frame; absolute: the same on one evaluation-time curve; compact: as few shape keys as "
-        "the tolerance allows; rig: curves of the shape keys that are there; pc2, mdd: a cache on disk",
-        choices=("frames", "absolute", "compact", "rig", "pc2", "mdd"),
+        "the tolerance allows; rig: curves of the shape keys that are there; pc2, mdd, alembic, usd: a cache on disk",
+        choices=("frames", "absolute", "compact", "rig", "pc2", "mdd", "alembic", "usd"),
     )
     tolerance: float = _setting(
         0.005, "How far a frame of a compact bake may be off, in distances between the eyes", low=0.0001, high=0.5

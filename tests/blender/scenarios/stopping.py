@@ -62,7 +62,7 @@ def take_in(way: str) -> tuple[object, ...]:
     return context, "@target", options
 
 
-BAKES = ("frames", "compact", "rig", "pc2")
+BAKES = ("frames", "compact", "rig", "pc2", "alembic")
 WORKS = {
     **{f"bake {kind}": ("retargeting", "retarget_steps", context) for kind in BAKES},
     "show levels": ("retargeting", "level_steps", context),
