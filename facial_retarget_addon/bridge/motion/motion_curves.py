@@ -9,8 +9,9 @@ from bpy.types import ID, Object
 from ...core.arrays import FloatArray
 from ...core.errors import RetargetError
 from ...fap_controls import CONTROLS
-from ..bakes.frames import remove_bake
+from ..bakes.frames import remove_bakes
 from ..curves import ensure_curves, find_curves, remove_curves, write_curve
+from ..heads import head_parts
 from ..shape_keys import remove_keys, value_path
 from .head_empty import clear_head
 
@@ -19,8 +20,8 @@ MOTION, CHANNELS = "Imported Motion", "Imported Channels"
 
 
 def clear_motion(thing: Object) -> None:
-    """Take an earlier import or bake off a face. What it moved rests; the artist's own curves and keys stay."""
-    remove_bake(thing)
+    """Take an earlier import or bake off a face and its parts. What it moved rests; own curves and keys stay."""
+    remove_bakes([thing, *head_parts(thing)])
     clear_head(thing)
     moved = _drop_group(thing, MOTION)
     for control in CONTROLS:

@@ -116,9 +116,18 @@ channels = [name for name in names(actor) if name[0].isdigit() or name.startswit
 assert set(channels) <= set(fitted(actor).channels)
 assert len(channels) == len(curve_paths(actor.data.shape_keys)) - 1
 
-# As frames: the same, sampled at the scene's frames.
+# As frames: the same, sampled at the scene's frames. A cache that the face plays goes: it would hide them.
+caches, head = part("bridge.bakes.cache"), part("bridge.heads").read_head(actor)
+frames = np.repeat(head.face.mesh.vertices[None].astype(np.float32), 2, axis=0)
+places = caches.cache_places(head, folder / "cache.pc2", frames)
+with part("files.whole").written_whole() as aside:
+    caches.add_caches(aside, head, places, frames, [1, 2])
+caches.play_caches(head, places, [1, 2])
+actor.facial_retarget.bake = "pc2"
 import_motion(filepath=paths[0], way="FRAMES", frame_start=START)
 assert not set(channels) & set(names(actor))
+assert not actor.modifiers
+assert not actor.facial_retarget.bake
 last = START + int((COUNT - 1) * rate + 1e-6)
 assert [name for name in names(actor) if name.startswith("frame_")] == [
     f"frame_{frame:04d}" for frame in range(START, last + 1)
