@@ -35,7 +35,7 @@ def rows() -> Iterator[Row]:
     frames = Recorded(source.mesh, shapes, names)
     retargeter = fit("motion_cloning", Problem(source, target), MotionCloningSettings())
     rest = target.mesh.vertices.astype(np.float32)
-    motion = np.concatenate([retargeter.frames(frames(first)) - rest for first in range(0, frames.count, BLOCK)])
+    motion = np.concatenate([retargeter.frames(frames[k : k + BLOCK]) - rest for k in range(0, len(frames), BLOCK)])
     unit = eye_separation(target.mesh, target.points)
     start = perf_counter()
     keyed = compact(motion, target.mesh.vertices, HOW.tolerance * unit, unit, np.random.default_rng(0))
@@ -79,20 +79,23 @@ def read_set(name: str, points: str) -> tuple[Face, FloatArray, list[str]]:
 
 
 class Recorded:
-    """Frames of the recording on a head, a few at a time."""
+    """Frames (F, V, 3) of the recording on a head, made as they are asked for: `files.frames.FrameBlocks`."""
 
-    def __init__(self, mesh: TriMesh, shapes: FloatArray, names: list[str]) -> None:
+    def __init__(self, mesh: TriMesh, shapes: FloatArray, names: list[str], step: int = 1) -> None:
         take = np.load(DATA / "livelink_alex_rom_3.npz", allow_pickle=True)
         known: dict[str, Any] = json.loads((DATA / "arkit_name_map.json").read_text())["map"]["ict_facekit/ict"]
-        self._weights = np.zeros((len(take["weights"]), len(names)), np.float32)
+        weights = take["weights"][::step]
+        self._weights = np.zeros((len(weights), len(names)), np.float32)
         for column, name in enumerate(take["names"].tolist()):
             theirs = known.get(name) or []
             for shape in [theirs] if isinstance(theirs, str) else theirs:
-                self._weights[:, names.index(shape)] += take["weights"][:, column]
+                self._weights[:, names.index(shape)] += weights[:, column]
         self._shapes, self._rest = shapes.reshape(len(shapes), -1), mesh.vertices.astype(np.float32)
-        self.count = len(self._weights)
+        self.shape = (len(weights), *mesh.vertices.shape)
 
-    def __call__(self, first: int) -> FloatArray:
-        """(F, V, 3) positions of the frames from `first` on."""
-        rows = self._weights[first : first + BLOCK]
+    def __len__(self) -> int:
+        return len(self._weights)
+
+    def __getitem__(self, frames: slice, /) -> FloatArray:
+        rows = self._weights[frames]
         return (rows @ self._shapes).reshape(len(rows), -1, 3) + self._rest
