@@ -229,6 +229,12 @@ TEXTS = {
     ),
     "MDD Cache": "MDD-Zwischenspeicher",
     "The same, as older programs read it": "Dasselbe, wie ältere Programme es lesen",
+    "Alembic Cache": "Alembic-Zwischenspeicher",
+    "One file of all moved objects that other programs read, and a modifier that plays it": (
+        "Eine Datei aller bewegten Objekte, die andere Programme lesen, und ein Modifikator, der sie abspielt"
+    ),
+    "USD Cache": "USD-Zwischenspeicher",
+    "The same as USD: .usdc, or .usd if you name it so": "Dasselbe als USD: .usdc, oder .usd, wenn die Datei so heißt",
     "Step": "Schritt",
     "Scene frames from one baked frame to the next; below 1 for sub-frames": (
         "Bilder der Szene von einem gebackenen Bild zum nächsten; unter 1 für Zwischenbilder"

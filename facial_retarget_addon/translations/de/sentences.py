@@ -544,6 +544,9 @@ SENTENCES = {
     "{} cannot be written: the folder {} may not be changed": (
         "{} lässt sich nicht schreiben: der Ordner {} darf nicht geändert werden"
     ),
+    "{} cannot be written: Blender did not get to its end; the disk may be full": (
+        "{} lässt sich nicht schreiben: Blender kam nicht bis ans Ende; vielleicht ist die Platte voll"
+    ),
     "folder {} holds {}; expected a new folder, or one that holds {} files only, since it is replaced": (
         "Ordner {} enthält {}; er wird ersetzt: einen neuen nehmen, oder einen, in dem nur {}-Dateien sind"
     ),
