@@ -17,13 +17,15 @@ STEPS = {
 }
 """Step of the work -> page and place."""
 
+EXPORTING = "export.html#what-each-format-keeps"
 CLONING, MPEG4 = "blender.html#clone-shape-keys", "blender.html#mpeg-4-face"
 
 _OPERATORS = {
     STEPS["POINTS"]: ("*point*", "*proposal*", "accept*", "start_placing", "*part", "*parts", "show_base"),
     STEPS["EXAMPLES"]: ("*example*", "rough_out*", "stop_sculpting"),
     STEPS["RETARGET"]: ("retarget", "*levels", "*preview*", "compare", "show_method", "*mask*", "stop"),
-    STEPS["EXPORT"]: ("export_gltf", "load_job", "save_job", "*maps*"),
+    STEPS["EXPORT"]: ("load_job", "save_job", "*maps*", "export_curves", "export_faps"),
+    EXPORTING: ("prepare_export", "export_gltf", "export_fbx", "export_usd", "export_alembic"),
     CLONING: ("*clone*", "add_actor", "resolve*", "find_corrected"),
     MPEG4: ("*shapes", "*controls", "*motion"),
     STEPS["FACES"]: ("*",),
@@ -35,6 +37,7 @@ _GROUPS = {
     STEPS["EXAMPLES"]: ("example*", "sculpting"),
     STEPS["RETARGET"]: ("hierarchical", "feature_points", "motion_cloning", "wavelet", "regions", "mask"),
     STEPS["EXPORT"]: ("normal_maps",),
+    EXPORTING: ("export",),
     CLONING: ("cloning", "cloned_key"),
     STEPS["FACES"]: ("*",),
 }

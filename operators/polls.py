@@ -90,6 +90,18 @@ class OnTask:
         return in_mode(cls, context, cls.modes)
 
 
+class OnTarget:
+    """For operators on the target alone."""
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        """A target must be chosen, in Object Mode."""
+        if context.scene.facial_retarget.target is None:
+            cls.poll_message_set("Choose a target under Faces")
+            return False
+        return in_mode(cls, context)
+
+
 class OnCloning:
     """For operators that clone shape keys."""
 

@@ -1,12 +1,14 @@
 """What becomes of the baked performance, and the task as a job file."""
 
-from bpy.types import Context, Panel
+from bpy.types import Context, Panel, UILayout
 
-from .tab import RetargetTab, Step
+from ..facial_retarget_addon.export_losses import export_losses
+from ..facial_retarget_addon.translations import filled
+from .tab import RetargetTab, Step, draw_text
 
 
 class FACIAL_RETARGET_PT_export(Step, Panel):
-    """What was baked, and the way out of Blender."""
+    """The way out of Blender, and what it costs."""
 
     bl_label = "5. Bake and Export"
     bl_order = 5
@@ -15,10 +17,28 @@ class FACIAL_RETARGET_PT_export(Step, Panel):
 
     def draw(self, context: Context) -> None:
         """Draw the panel."""
-        self.layout.operator("facial_retarget.export_gltf", icon="EXPORT")
-        row = self.layout.row(align=True)
+        layout = self.layout
+        task = context.scene.facial_retarget
+        export = task.export
+        layout.operator("facial_retarget.prepare_export", icon="DUPLICATE")
+        column = layout.column(align=True)
+        column.row(align=True).prop(export, "form", expand=True)
+        button = column.operator(f"facial_retarget.export_{export.form.lower()}", icon="EXPORT")
+        if export.form == "USD":
+            layout.prop(export, "points")
+            button.points = export.points
+        if task.target is not None:
+            draw_losses(layout, context, export.form, export.form == "USD" and export.points)
+        row = layout.row(align=True)
         row.operator("facial_retarget.export_curves", icon="FCURVE")
         row.operator("facial_retarget.export_faps")
+
+
+def draw_losses(layout: UILayout, context: Context, form: str, points: bool) -> None:
+    """What an export of the target will lose."""
+    scene = context.scene
+    for loss in export_losses(form, scene.facial_retarget.target, scene, points):
+        draw_text(layout, context, filled(loss.text, **loss.fields), icon="ERROR")
 
 
 class FACIAL_RETARGET_PT_job(RetargetTab, Panel):

@@ -16,7 +16,7 @@ ROOMS = {
     "demo": ({"numpy", "scipy"}, {"core", "demo"}),
     "bridge": (
         {"numpy", "bpy", "mathutils", "bpy_extras"},
-        {"core", "files", "bridge", "fap_controls", "guide", "preview_state", "properties", "demo"},
+        {"core", "files", "bridge", "export_losses", "fap_controls", "guide", "preview_state", "properties", "demo"},
     ),
     "viewport": (
         {"numpy", "bpy", "mathutils", "bpy_extras", "gpu", "gpu_extras", "blf"},

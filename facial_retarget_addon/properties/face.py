@@ -79,6 +79,7 @@ class FACIAL_RETARGET_PG_face(PropertyGroup):
     )
     shown_key: StringProperty(name="Shown Shape Key", description="The shape key that a click in the list has set to 1")
     head: PointerProperty(name="Head", type=Object, description="The empty that shows how the head turns")
+    prepared_from: PointerProperty(name="Prepared From", type=Object, description="What this copy was prepared from")
     bake: StringProperty(name="Bake", description="The kind of the bake that the face plays; empty for none")
 
     @property

@@ -8,6 +8,7 @@ from .bakes import FACIAL_RETARGET_PG_bake
 from .choices import is_mesh, label, tell
 from .cloning import FACIAL_RETARGET_PG_cloning
 from .examples import FACIAL_RETARGET_PG_example, FACIAL_RETARGET_PG_sculpting
+from .export import FACIAL_RETARGET_PG_export
 from .methods import METHOD_ITEMS, SETTINGS_GROUPS, FACIAL_RETARGET_PG_mask, FACIAL_RETARGET_PG_regions
 from .normal_maps import FACIAL_RETARGET_PG_normal_maps
 from .overlay import FACIAL_RETARGET_PG_overlay
@@ -51,6 +52,7 @@ class FACIAL_RETARGET_PG_task(PropertyGroup):
     sculpting: PointerProperty(type=FACIAL_RETARGET_PG_sculpting)
     cloning: PointerProperty(type=FACIAL_RETARGET_PG_cloning)
     bake: PointerProperty(type=FACIAL_RETARGET_PG_bake)
+    export: PointerProperty(type=FACIAL_RETARGET_PG_export)
     normal_maps: PointerProperty(type=FACIAL_RETARGET_PG_normal_maps)
     overlay: PointerProperty(type=FACIAL_RETARGET_PG_overlay)
     method: EnumProperty(

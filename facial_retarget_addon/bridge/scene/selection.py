@@ -2,27 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 
-from bpy.types import Context, Object
-
-from ..heads import head_parts
+from bpy.types import Context, Object, ViewLayer
 
 
 @contextmanager
-def head_selected(context: Context, face: Object) -> Iterator[None]:
-    """A face and its parts alone are selected inside; afterwards what was."""
-    before = context.selected_objects
-    _select(context, [face, *head_parts(face)])
+def selected_alone(context: Context, things: Collection[Object]) -> Iterator[None]:
+    """Some objects alone are selected inside, whatever view shows others alone; afterwards what was."""
+    layer = context.view_layer
+    before, active = [thing for thing in layer.objects if thing.select_get()], layer.objects.active
+    select_only(layer, things)
     try:
-        yield
+        # In a view that shows some objects alone the context has no others.
+        with context.temp_override(area=None, selected_objects=list(things)):
+            yield
     finally:
-        _select(context, before)
+        select_only(layer, before)
+        layer.objects.active = active
 
 
-def _select(context: Context, things: list[Object]) -> None:
-    for thing in context.selected_objects:
-        thing.select_set(False)
-    for thing in things:
-        thing.select_set(True)
+def select_only(layer: ViewLayer, things: Collection[Object]) -> None:
+    """Select some objects and no other."""
+    layer.update()  # up to Blender 5.0 objects that are gone are among its own until then, as None
+    for thing in layer.objects:
+        thing.select_set(thing in things)

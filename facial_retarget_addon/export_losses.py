@@ -1,0 +1,187 @@
+"""What a format loses of a head, in words, before anything is written: for the panel, without NumPy and bpy."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from bpy.types import Object, Scene, ShapeKey
+
+FORMATS = {"GLTF": "glTF", "FBX": "FBX", "USD": "USD", "ALEMBIC": "Alembic"}
+"""Formats of an export, and how they are called."""
+CACHES = {"MESH_CACHE", "MESH_SEQUENCE_CACHE"}
+"""Modifiers that play a motion from disk."""
+NAMED = 3
+"""So many names stand in a sentence; dots and the number of all stand for the others."""
+LONGEST = 63
+"""Bytes that Blender keeps of a name."""
+_ALEMBIC_MARKS = str.maketrans(" .:/", "____")
+
+
+class Loss(NamedTuple):
+    """A sentence, to be translated before its {fields} are filled in."""
+
+    text: str
+    fields: dict[str, object] = {}
+
+    def __str__(self) -> str:
+        return self.text.format(**self.fields)
+
+
+UNSAMPLED = Loss("Keyframes lie between frames at many places: the whole frames are exported")
+"""Where no number of samples meets all keyframes."""
+
+
+def export_losses(form: str, face: Object, scene: Scene, points: bool = False) -> list[Loss]:
+    """What an export of a head loses; found by exporting and reading back in Blender 4.5, 5.0 and 5.2.
+
+    Parameters
+    ----------
+    form : of `FORMATS`.
+    points : USD shall carry moving vertices instead of shape keys, as Alembic always does.
+    """
+    things = head_things(face)
+    found = list(_left_out_frames(things, scene))
+    if form == "ALEMBIC" or points:
+        found += _lost_keys(things)
+    else:
+        found += [*_left_out_modifiers(form, things), *_made_plain(things), *_beyond_one(form, things)]
+    return [*found, *_of_format(form, things, scene, points)]
+
+
+def head_things(face: Object) -> list[Object]:
+    """A face and the parts of its head."""
+    return [face, *(part.thing for part in face.facial_retarget.parts if part.thing and part.thing.users_scene)]
+
+
+def own_keys(thing: Object) -> list[ShapeKey]:
+    """An object's shape keys but its first one and that of the live preview."""
+    keys = thing.data.shape_keys
+    own = () if keys is None else keys.key_blocks
+    return [key for key in own if key != keys.reference_key and key.name != "facial_retarget_preview"]
+
+
+def usd_names(names: Iterable[str]) -> dict[str, str]:
+    """Each name -> one that USD takes: letters, digits and underscores, no digit first, each once.
+
+    Blender's exporter writes an underscore for each other character too, but two keys that become one are both lost.
+    """
+    made: dict[str, str] = {}
+    for name in names:
+        safe = "".join(letter if f"_{letter}".isidentifier() else "_" for letter in name)
+        safe = safe if safe.isidentifier() else f"_{safe}"
+        unique, number = _shortened(safe, LONGEST), 1
+        while unique in made.values():
+            unique, number = f"{_shortened(safe, LONGEST - 4)}_{number:03d}", number + 1
+        made[name] = unique
+    return made
+
+
+def _shortened(name: str, length: int) -> str:
+    return name.encode()[:length].decode(errors="ignore")
+
+
+def _left_out_frames(things: list[Object], scene: Scene) -> Iterator[Loss]:
+    """Keyframes outside the scene's range; a frame's key is off at the frames beside it."""
+    first, last = scene.frame_start, scene.frame_end
+    keyed = [thing.data.shape_keys for thing in things if thing.data.shape_keys is not None]
+    actions = [keys.animation_data.action for keys in keyed if keys.animation_data and keys.animation_data.action]
+    # An action that has lost its curves says (0, 0).
+    ranges = [ends for ends in (tuple(action.curve_frame_range) for action in actions) if ends[1] > ends[0]]
+    if any(start < first - 1 or end > last + 1 for start, end in ranges):
+        yield Loss(
+            "Only the scene's frames {first} to {last} are exported: the keyframes reach from {start:g} to {end:g}",
+            {"first": first, "last": last, "start": min(r[0] for r in ranges), "end": max(r[1] for r in ranges)},
+        )
+
+
+def _lost_keys(things: list[Object]) -> Iterator[Loss]:
+    names = dict.fromkeys(key.name for thing in things for key in own_keys(thing))
+    if names:
+        yield Loss("Shape keys become moving vertices, without sliders: {names}", {"names": _listed(names)})
+
+
+def _left_out_modifiers(form: str, things: list[Object]) -> Iterator[Loss]:
+    for thing in things:
+        shown = [modifier for modifier in thing.modifiers if modifier.show_viewport and modifier.type != "ARMATURE"]
+        for cache in (modifier for modifier in shown if modifier.type in CACHES):
+            yield Loss(
+                "The motion that {modifier} plays on {thing} is lost: {form} takes shape keys only. Bake some, or "
+                "export moving vertices",
+                {"modifier": cache.name, "thing": thing.name, "form": FORMATS[form]},
+            )
+        others = [modifier.name for modifier in shown if modifier.type not in CACHES]
+        if others:
+            yield Loss(
+                "{thing} goes without what its modifiers do ({names}): they would cost it its shape keys",
+                {"thing": thing.name, "names": _listed(others)},
+            )
+
+
+def _made_plain(things: list[Object]) -> Iterator[Loss]:
+    driven = dict.fromkeys(key.name for thing in things for key in own_keys(thing) if _is_driven(key))
+    if driven:
+        yield Loss("Driven shape keys become curves: {names}", {"names": _listed(driven)})
+    muted = dict.fromkeys(key.name for thing in things for key in own_keys(thing) if key.mute)
+    if muted:
+        yield Loss("Muted shape keys stay at 0: {names}", {"names": _listed(muted)})
+    for thing in things:
+        if thing.data.shape_keys is not None and not thing.data.shape_keys.use_relative:
+            yield Loss(
+                "The absolute shape keys of {thing} become relative ones with a curve each", {"thing": thing.name}
+            )
+
+
+def _is_driven(key: ShapeKey) -> bool:
+    animation = key.id_data.animation_data
+    path = key.path_from_id("value")
+    return animation is not None and any(curve.data_path == path for curve in animation.drivers)
+
+
+def _beyond_one(form: str, things: list[Object]) -> Iterator[Loss]:
+    beyond = dict.fromkeys(
+        key.name for thing in things for key in own_keys(thing) if key.slider_min < 0 or key.slider_max > 1
+    )
+    if beyond:
+        yield Loss(
+            "{form} carries values below 0 and above 1, and many programs cut them off: {names}",
+            {"form": FORMATS[form], "names": _listed(beyond)},
+        )
+
+
+def _of_format(form: str, things: list[Object], scene: Scene, points: bool) -> Iterator[Loss]:
+    if form == "GLTF":
+        yield Loss(
+            "glTF makes polygons triangles and doubles vertices at the borders of UVs: their number and order change"
+        )
+        rate, base = scene.render.fps, scene.render.fps_base
+        if base != 1:
+            yield Loss(
+                "glTF counts seconds, and Blender's importer takes this scene's {rate:.3f} frames a second for "
+                "{wrong:.3f}",
+                {"rate": rate / base, "wrong": rate * base},
+            )
+    layers = [layer.name for thing in things for layer in thing.data.uv_layers]
+    if form == "GLTF" and any(name != "UVMap" for name in layers):
+        yield Loss("The names of UV maps are lost")
+    if form == "USD":
+        keys = () if points else dict.fromkeys(key.name for thing in things for key in own_keys(thing))
+        yield from _renamed("USD calls objects otherwise: {names}", usd_names(thing.name for thing in things))
+        yield from _renamed("USD calls shape keys otherwise: {names}", usd_names(keys))
+        if any(layer.name != "st" for thing in things for layer in thing.data.uv_layers if layer.active_render):
+            yield Loss("The UV map that renders is called st, as USD's programs expect")
+    if form == "ALEMBIC":
+        names = {thing.name: thing.name.translate(_ALEMBIC_MARKS) for thing in things}
+        yield from _renamed("Alembic calls objects otherwise: {names}", names)
+
+
+def _renamed(text: str, names: dict[str, str]) -> Iterator[Loss]:
+    changed = [f"{old} → {new}" for old, new in names.items() if old != new]
+    if changed:
+        yield Loss(text, {"names": _listed(changed)})
+
+
+def _listed(names: Iterable[str]) -> str:
+    found = list(names)
+    return ", ".join(found[:NAMED]) + (f", ... ({len(found)})" if len(found) > NAMED else "")
