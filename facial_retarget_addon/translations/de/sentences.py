@@ -14,7 +14,6 @@ SENTENCES = {
     "{} shape keys are corrected": "{} Formschlüssel sind verbessert",
     "{} shape keys solved again, from {} corrected ones": "{} Formschlüssel neu gelöst, aus {} verbesserten",
     "{}: {} feature points copied {}": "{}: {} Merkmalspunkte {:said} kopiert",
-    "Exported {}": "{} exportiert",
     "{} FAPs have no points on this face: {}": "{} FAPs haben auf diesem Gesicht keine Punkte: {}",
     "{} parts added": "{} Teile hinzugefügt",
     "Loaded {}": "{} geladen",
