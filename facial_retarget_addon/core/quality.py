@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -47,24 +47,36 @@ class Quality:
     spots: list[Spots] = field(default_factory=list)
     drift: float = 0.0
 
-    def add(self, source_frames: FloatArray, target_frames: FloatArray) -> None:
-        """Measure frames (F, Vs, 3) of the source and (F, Vt, 3) of the target."""
-        rest = self.target.vertices.astype(np.float32)
+    def add(self, source_frames: FloatArray, target_frames: FloatArray) -> dict[str, Any]:
+        """Measure frames (F, Vs, 3) of the source and (F, Vt, 3) of the target; returns plain data for `add_known`."""
+        rest, still = self.target.vertices.astype(np.float32), self.source.vertices.astype(np.float32)
+        found: dict[str, Any] = {"torn": [], "flipped": [], "spots": [], "largest": [], "drift": 0.0}
         gaping = self._gaping(source_frames, target_frames)
         for before, after, gaps in zip(source_frames, target_frames, gaping, strict=True):
             torn = self._defects.torn(after, self._defects.calm(before))
             also = self._defects.turned_at_counterpart(before)[self.target.faces].any(axis=1)
             turned = self._defects.turned(after) & ~also
-            self.torn.append(int(torn.sum()))
-            self.flipped.append(int(turned.sum()))
-            self.spots.append(Spots(np.unique(self.target.edges[torn]), np.unique(self.target.faces[turned]), *gaps))
-            moved = np.sqrt(np.square(after - rest).sum(axis=1).max(initial=0.0))
-            self.largest.append(float(moved))
-            if np.array_equal(before, self.source.vertices.astype(np.float32)):
-                self.drift = max(self.drift, float(moved))
-        if self.seams is not None:
-            for name, values in self.seams.measured(source_frames, target_frames).items():
-                self.gaps.setdefault(name, []).extend(values)
+            found["torn"].append(int(torn.sum()))
+            found["flipped"].append(int(turned.sum()))
+            spots = Spots(np.unique(self.target.edges[torn]), np.unique(self.target.faces[turned]), *gaps)
+            found["spots"].append([vertices.tolist() for vertices in spots])
+            moved = float(np.sqrt(np.square(after - rest).sum(axis=1).max(initial=0.0)))
+            found["largest"].append(moved)
+            if np.array_equal(before, still):
+                found["drift"] = max(found["drift"], moved)
+        found["gaps"] = {} if self.seams is None else dict(self.seams.measured(source_frames, target_frames))
+        self.add_known(found)
+        return found
+
+    def add_known(self, found: Mapping[str, Any]) -> None:
+        """Add the next frames by what `add` has returned for them."""
+        self.torn += found["torn"]
+        self.flipped += found["flipped"]
+        self.largest += found["largest"]
+        self.spots += [Spots(*(np.array(part, np.int64) for part in spots)) for spots in found["spots"]]
+        self.drift = max(self.drift, found["drift"])
+        for name, values in found["gaps"].items():
+            self.gaps.setdefault(name, []).extend(values)
 
     def __post_init__(self) -> None:
         self._defects = Defects(self.source, self.target, self.counterpart)

@@ -50,12 +50,12 @@ class Result:
 class KeptBlocks(Protocol):
     """Blocks of retargeted frames that outlive a run, so that none is computed twice."""
 
-    def read(self, rows: slice) -> FloatArray | None:
-        """(F, Vt, 3) the frames of these rows, None where they are not kept."""
+    def read(self, rows: slice) -> tuple[FloatArray, dict[str, Any]] | None:
+        """(F, Vt, 3) the frames of these rows and their figures, None where they are not kept."""
         ...
 
-    def keep(self, rows: slice, frames: FloatArray) -> None:
-        """Keep the frames (F, Vt, 3) float32 of these rows."""
+    def keep(self, rows: slice, frames: FloatArray, figures: dict[str, Any]) -> None:
+        """Keep the frames (F, Vt, 3) float32 of these rows and what `Quality.add` found, plain data."""
         ...
 
 
@@ -99,13 +99,17 @@ def retarget(
         before = None if kept is None else kept.read(rows)
         how = "" if before is None else ", from an earlier run"
         progress(0.4 + 0.6 * first / len(frames), f"frame {first + 1} of {len(frames)}{how}")
+        if before is not None:
+            result[rows], figures = before
+            quality.add_known(figures)
+            continue
         block = np.asarray(frames[rows], np.float32)
-        result[rows] = gained.scale(retargeter.frames(block)) if before is None else before
-        if kept is not None and before is None:
-            kept.keep(rows, result[rows])
+        result[rows] = gained.scale(retargeter.frames(block))
         measure = perf_counter()
-        quality.add(block, result[rows])
+        figures = quality.add(block, result[rows])
         measuring += perf_counter() - measure
+        if kept is not None:
+            kept.keep(rows, result[rows], figures)
     progress(1.0, "done")
     report = {
         "method": method,

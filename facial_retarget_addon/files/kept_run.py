@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import hashlib
 import io
+import json
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import asdict
 from importlib.metadata import version
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -18,6 +20,7 @@ from ..core.errors import RetargetError
 from .documents import json_bytes, read_json
 from .images import suffix_of
 from .job import Job
+from .npz import read_arrays, write_arrays
 from .whole import check_place, write_whole
 
 ENDING = ".unfinished"
@@ -56,27 +59,26 @@ class KeptRun:
                 self.pictures.mkdir(exist_ok=True)
                 _remove_parts(self.pictures)
 
-    def read(self, rows: slice) -> FloatArray | None:
+    def read(self, rows: slice) -> tuple[FloatArray, dict[str, Any]] | None:
         """See `core.retarget.KeptBlocks`; RetargetError for a block that cannot be read."""
         path = self._block(rows)
         if not path.exists():
             return None
         try:
-            frames: FloatArray = np.load(path, allow_pickle=False)
-        except (OSError, ValueError, EOFError) as error:
-            raise RetargetError(f"{path} cannot be read: {error}; remove {self._folder} to start anew") from error
-        if frames.ndim != 3 or len(frames) != rows.stop - rows.start or frames.dtype != np.float32:
-            raise RetargetError(f"{path} holds no block of frames; remove {self._folder} to start anew")
-        return frames
+            held = read_arrays(path, "frames", "figures")
+            frames, figures = held["frames"], json.loads(held["figures"].tobytes())
+        except (RetargetError, KeyError, ValueError) as error:
+            raise RetargetError(f"{path} is no block of frames; remove {self._folder} to start anew") from error
+        return frames, figures
 
-    def keep(self, rows: slice, frames: FloatArray) -> None:
+    def keep(self, rows: slice, frames: FloatArray, figures: dict[str, Any]) -> None:
         """See `core.retarget.KeptBlocks`; RetargetError if the system refuses."""
         held = io.BytesIO()
-        np.save(held, np.ascontiguousarray(frames, np.float32), allow_pickle=False)
+        write_arrays(held, {"frames": frames, "figures": np.frombuffer(json.dumps(figures).encode(), np.uint8)})
         write_whole(self._block(rows), held.getvalue())
 
     def _block(self, rows: slice) -> Path:
-        return self._folder / f"frames_{rows.start + 1:06d}.npy"
+        return self._folder / f"frames_{rows.start + 1:06d}.npz"
 
 
 def kept_folders(job: Job) -> tuple[Path, Path | None]:

@@ -118,7 +118,7 @@ def test_a_killed_run_goes_on_and_gives_the_same_bytes(long_job, computed):
     assert left(long_job) == ["out.npz.unfinished"]
     assert not long_job.output.frames.exists()
     before = {path.name: path.stat().st_mtime_ns for path in kept_folders(long_job)[0].iterdir()}
-    assert sorted(before) == ["frames_000001.npy", "frames_000017.npy", "frames_000033.npy", "made_with.json"]
+    assert sorted(before) == ["frames_000001.npz", "frames_000017.npz", "frames_000033.npz", "made_with.json"]
     computed.clear()
     assert main(["run", str(long_job.path), "--resume", "--quiet"]) == 0
     assert computed == [retarget.BLOCK, COUNT - (BLOCKS - 1) * retarget.BLOCK]
@@ -258,10 +258,10 @@ def test_a_folder_of_somebody_elses_is_left_alone(long_job, capsys, listing):
 
 def test_a_block_that_is_spoilt_is_said(long_job, capsys):
     killed(long_job, "kept_run.KeptRun", "keep", 1)
-    (kept_folders(long_job)[0] / "frames_000001.npy").write_bytes(b"\x93NUMPY")
+    (kept_folders(long_job)[0] / "frames_000001.npz").write_bytes(b"PK")
     assert main(["run", str(long_job.path), "--resume", "--quiet"]) == 2
     said = capsys.readouterr().err
-    assert "frames_000001.npy cannot be read" in said
+    assert "frames_000001.npz is no block of frames" in said
     assert said.count("\n") == 1
 
 
