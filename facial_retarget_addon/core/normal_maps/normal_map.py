@@ -10,22 +10,16 @@ from typing import NamedTuple
 import numpy as np
 import scipy.sparse as sp
 
-from ..arrays import BoolArray, FloatArray, IntArray, cross, unit_vectors
-from ..closest_point import SurfaceFinder
+from ..arrays import FloatArray, IntArray, cross, unit_vectors
 from ..errors import RetargetError
 from ..mesh import TriMesh
 from ..points import place_matrix
 from ..raycast import CasterFactory, EmbreeCaster
 from .surface import TexturedSurface
 from .tangents import TangentSpace
-from .texels import margin, rasterise
+from .texel_places import place_texels
+from .texels import margin, rasterise, ring
 
-_AGREEMENT = 0.2
-"""A place of the fine mesh counts where its normal's dot product with the light mesh's is above this."""
-_REACH = 0.05
-"""How far from the light mesh the fine one is looked for, in sizes of the light mesh."""
-_NEAR = 0.005
-"""The same for a place that no ray has found."""
 _BLOCK = 1 << 14
 """Texels that go through together: what one block needs stays in the cache."""
 _THREADS = min(4, os.cpu_count() or 1)
@@ -51,8 +45,8 @@ class NormalMap:
     Attributes
     ----------
     size : pixels along each side.
-    pixel : (T,) covered pixels, row after row from the bottom left.
-    around, nearest : (M,) pixels of the margin, and the covered pixel that each one copies.
+    pixel : (T,) covered pixels, and with a margin those along their borders, row after row from the bottom left.
+    around, nearest : (M,) the other pixels of the margin, and the pixel that each one copies.
     missed : texels without a place on the fine mesh: they are flat.
     """
 
@@ -166,7 +160,8 @@ def fit_normal_map(
     ----------
     surface : the light mesh. fine : the fine mesh, in the same space.
     size : pixels along each side. tile : whole u and v of the UDIM tile.
-    margin_width : pixels around the covered ones that are filled, so that no seam shows when the map is made smaller.
+    margin_width : pixels around the covered ones that are filled, so that no seam shows. Those that a shader mixes in
+        at the borders go on with the surface, the others copy the nearest; 0 leaves all of them flat.
     strength : (N,) of the map at the fine mesh's vertices, 0 for a flat one; None for 1 everywhere.
 
     Raises
@@ -184,19 +179,17 @@ def fit_normal_map(
             f"texture coordinates from ({low[0]:.3g}, {low[1]:.3g}) to ({high[0]:.3g}, {high[1]:.3g}) cover no pixel "
             f"of UDIM tile {1001 + tile[0] + 10 * tile[1]} at {size} pixels, expected them inside it"
         )
-    mesh = surface.mesh
-    light = place_matrix(mesh.faces[texels.face], texels.weights, len(mesh.vertices))
-    outwards = unit_vectors(light @ surface.normals(mesh.vertices))
-    face, weights = _places(light @ mesh.vertices, outwards, fine, mesh.size, make_caster)
+    around = ring(surface.triangle_uvs, size, tile, texels.pixel) if margin_width > 0 else None
+    texels, _, face, weights = place_texels(surface, fine, texels, around, make_caster(fine))
     lost = face < 0
     weights[lost] = 0.0
-    space = TangentSpace(mesh.faces, surface.triangle_uvs)
+    space = TangentSpace(surface.mesh.faces, surface.triangle_uvs)
     on_fine = place_matrix(fine.faces[face], weights, len(fine.vertices)).astype(np.float32)
     in_frame = place_matrix(space.group[texels.face], texels.weights, space.count).astype(np.float32)
     sign = space.sign[texels.face]
     strong = None if strength is None else (on_fine @ strength).astype(np.float32)
     rows = [slice(first, first + _BLOCK) for first in range(0, len(texels.pixel), _BLOCK)]
-    around, nearest = margin(texels.pixel, size, margin_width)
+    copies, nearest = margin(texels.pixel, size, margin_width)
     incidence = sp.csr_matrix(
         (np.ones(fine.faces.size, np.float32), (fine.faces.ravel(), np.repeat(np.arange(len(fine.faces)), 3))),
         shape=(len(fine.vertices), len(fine.faces)),
@@ -204,7 +197,7 @@ def fit_normal_map(
     return NormalMap(
         size,
         texels.pixel,
-        around,
+        copies,
         texels.pixel[nearest],
         int(lost.sum()),
         surface,
@@ -218,22 +211,3 @@ def fit_normal_map(
             for some in rows
         ),
     )
-
-
-def _places(
-    places: FloatArray, normals: FloatArray, fine: TriMesh, size: float, make_caster: CasterFactory
-) -> tuple[IntArray, FloatArray]:
-    """Face (T,) and weights (T, 3) on the fine mesh for places (T, 3) with unit normals (T, 3); face -1 for none."""
-    caster, reach = make_caster(fine), _REACH * size
-    best = np.full(len(places), np.inf)
-    face, weights = np.full(len(places), -1, np.int64), np.zeros((len(places), 3))
-    for sign in (1.0, -1.0):
-        hits = caster.nearest(places, sign * normals, reach)
-        agree = np.einsum("ti,ti->t", fine.face_normals[hits.face], normals) > _AGREEMENT
-        better = hits.found & agree & (hits.distance < best)
-        best[better], face[better], weights[better] = hits.distance[better], hits.face[better], hits.weights[better]
-    lost: BoolArray = face < 0
-    if lost.any():
-        found = SurfaceFinder(fine).closest(places[lost], normals[lost], _AGREEMENT, _NEAR * size)
-        face[lost], weights[lost] = found.face, found.weights
-    return face, weights

@@ -14,6 +14,10 @@ _BLOCK = 1 << 21
 """Pixels that are looked at together."""
 _EDGE = 1e-9
 """A pixel's centre counts as inside where its weights are above minus this."""
+_FOOTPRINT = 2**0.5
+"""A bilinear look-up takes of pixels whose centres are less than this away, in pixels."""
+_BEYOND = 1.0
+"""How far out of its triangle a pixel may lie, in the triangle's heights, for the triangle's plane to say where."""
 
 
 class Texels(NamedTuple):
@@ -54,6 +58,69 @@ def rasterise(uvs: FloatArray, size: int, tile: tuple[int, int] = (0, 0)) -> Tex
     covered = np.flatnonzero(owner >= 0)
     clean = np.clip(held[covered], 0.0, None)
     return Texels(covered, owner[covered], clean / clean.sum(axis=1, keepdims=True))
+
+
+class Ring(NamedTuple):
+    """The uncovered pixels that a shader mixes in along the borders of the texture.
+
+    pixel : (R,) ascending. face : (R,) triangle closest to each one's centre.
+    edge : (R, 3) weights of the closest place on it. beyond : (R, 3) weights of the centre itself, in the triangle's
+    plane: one of them is negative. Those of `edge` where the triangle is too small to say.
+    """
+
+    pixel: IntArray
+    face: IntArray
+    edge: FloatArray
+    beyond: FloatArray
+
+
+def ring(uvs: FloatArray, size: int, tile: tuple[int, int], covered: IntArray) -> Ring:
+    """Pixels of which a bilinear look-up inside triangles takes a part, other than the covered ones (T,).
+
+    Those are among the ones whose centre is less than a pixel's diagonal from a triangle. Of triangles equally near the
+    last has the pixel, as it has covered ones.
+
+    Parameters
+    ----------
+    uvs, size, tile : as `rasterise`.
+    """
+    free = np.ones(size * size, bool)
+    free[covered] = False
+    places = (uvs - np.asarray(tile)) * size - 0.5
+    area = _twice_area(*(places[:, k] for k in range(3)))
+    found = [(np.empty(0, np.int64), np.empty(0, np.int64), np.empty(0), np.empty((0, 3)))]
+    for rows, x, y in _candidates(np.concatenate([places - _FOOTPRINT, places + _FOOTPRINT], axis=1), size):
+        near = free[y * size + x] & (area[rows] != 0)
+        rows, point = rows[near], np.stack([x[near], y[near]], axis=1)
+        edge = _closest_on_border(point, places[rows])
+        distance = np.linalg.norm(np.einsum("tk,tki->ti", edge, places[rows]) - point, axis=1)
+        near = distance < _FOOTPRINT
+        found.append((point[near] @ [1, size], rows[near], distance[near], edge[near]))
+    pixel, face, distance, edge = (np.concatenate(parts) for parts in zip(*found, strict=True))
+    order = np.lexsort((-face, np.round(distance, 6), pixel))
+    first = order[np.diff(pixel[order], prepend=-1) > 0]
+    pixel, face, edge = pixel[first], face[first], edge[first]
+    a, b, c = (places[face, k] for k in range(3))
+    point = np.stack([pixel % size, pixel // size], axis=1)
+    beyond = np.stack([_twice_area(point, b, c), _twice_area(a, point, c)], axis=1) / area[face, None]
+    beyond = np.column_stack([beyond, 1 - beyond.sum(axis=1)])
+    far = beyond.min(axis=1) < -_BEYOND
+    return Ring(pixel, face, edge, np.where(far[:, None], edge, beyond))
+
+
+def _closest_on_border(points: FloatArray, corners: FloatArray) -> FloatArray:
+    """Weights (N, 3) of the places on the borders of triangles (N, 3, 2) that are closest to points (N, 2)."""
+    best, weights = np.full(len(points), np.inf), np.zeros((len(points), 3))
+    for k in range(3):
+        start, side = corners[:, k], corners[:, (k + 1) % 3] - corners[:, k]
+        length = np.einsum("ni,ni->n", side, side)
+        share = np.einsum("ni,ni->n", points - start, side) / np.where(length > 0, length, 1.0)
+        share = np.clip(share, 0.0, 1.0)
+        distance = np.linalg.norm(start + share[:, None] * side - points, axis=1)
+        better = distance < best
+        best[better], weights[better] = distance[better], 0.0
+        weights[better, k], weights[better, (k + 1) % 3] = 1 - share[better], share[better]
+    return weights
 
 
 def margin(covered: IntArray, size: int, width: int) -> tuple[IntArray, IntArray]:
