@@ -11,7 +11,7 @@ from ..core.errors import RetargetError
 from ..core.methods.settings import MapSettings
 from ..core.normal_maps.encoding import as_picture
 from ..core.normal_maps.frame_maps import FrameMaps, Tile
-from ..core.normal_maps.surface import TexturedSurface
+from ..core.normal_maps.surface import TexturedSurface, shaded_triangles
 from .images import image_bytes, suffix_of, write_image
 from .mesh_file import MeshFile
 from .whole import write_whole
@@ -42,7 +42,8 @@ def textured(face: MeshFile, what: str) -> TexturedSurface:
             f"{what} has no texture coordinates, expected some for its normal maps; unwrap it, or make the maps for a "
             "level of its normal mesh"
         )
-    return TexturedSurface(face.mesh, face.counts, face.corners, face.uvs)
+    mesh = shaded_triangles(face.mesh, face.counts, face.corners)
+    return TexturedSurface(mesh, face.counts, face.corners, face.uvs)
 
 
 def udim_number(tile: Tile) -> int:

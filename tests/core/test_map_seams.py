@@ -19,7 +19,7 @@ QUARTER = ((0.27, 0.27), (0.73, 0.27), (0.27, 0.73), (0.73, 0.73))
 
 
 def waves(side: int, height: float, even: bool = False) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Vertices, corners (Q, 4) and grid coordinates of a bowl of side * side vertices with waves, alike on both halves if even."""
+    """Vertices, corners (Q, 4), grid coordinates of a wavy bowl of side * side vertices; even: alike left and right."""
     x, y = np.meshgrid(np.linspace(-1, 1, side), np.linspace(-1, 1, side))
     along = 3 * x * x if even else x
     z = np.sqrt(4 - x * x - y * y) + height * np.sin(9 * along + 4 * y) * np.cos(7 * y - 2 * along)

@@ -17,7 +17,7 @@ from facial_retarget_addon.core.normal_maps.chart import disc_chart
 from facial_retarget_addon.core.normal_maps.frame_maps import FrameMaps
 from facial_retarget_addon.core.normal_maps.normal_map import fit_normal_map
 from facial_retarget_addon.core.normal_maps.strain import ramp, strain
-from facial_retarget_addon.core.normal_maps.surface import TexturedSurface
+from facial_retarget_addon.core.normal_maps.surface import TexturedSurface, shaded_triangles
 from facial_retarget_addon.core.normal_maps.tangents import TangentSpace
 from facial_retarget_addon.core.normal_maps.texels import margin, rasterise, tiles
 from facial_retarget_addon.core.problem import Problem
@@ -61,6 +61,17 @@ def test_of_triangles_in_one_place_the_last_has_the_pixels() -> None:
     twice = np.concatenate([SQUARE, SQUARE[1:]])
     texels = rasterise(twice, 8)
     assert set(texels.face) == {0, 2}
+
+
+def test_quads_are_cut_as_blender_cuts_them() -> None:
+    """From the first corner to the third, although the other cut is shorter; the other way where that would fold."""
+    long = [[0, 0, 0], [1, 0, 0], [3, 0.5, 0], [0, 1, 0]]
+    dart = [[4, 0, 0], [5, 2, 0], [4, 0.5, 0], [3, 2, 0]]
+    places = np.array([*long, *np.roll(dart, -1, axis=0), [4, 3, 0], [5, 3, 0], [5, 4, 0]], float)
+    counts, corners = np.array([4, 4, 3]), np.arange(11)
+    cut = shaded_triangles(TriMesh.from_polygons(places, counts, corners), counts, corners)
+    assert cut.faces.tolist() == [[0, 1, 2], [0, 2, 3], [4, 5, 7], [5, 6, 7], [8, 9, 10]]
+    assert cut.polygons.tolist() == [0, 0, 1, 1, 2]
 
 
 def test_blocks_of_any_size_give_the_same_texels(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -12,13 +12,34 @@ from ..errors import RetargetError
 from ..mesh import TriMesh
 
 
+def shaded_triangles(mesh: TriMesh, counts: IntArray, corners: IntArray) -> TriMesh:
+    """A mesh with its quads cut as Blender and its exporters cut them, from the first corner to the third.
+
+    Only a quad that this would fold is cut the other way. Inside a warped quad its texture and normals depend
+    on the cut. Polygons with more corners stay cut as they are.
+
+    Parameters
+    ----------
+    mesh : polygon after polygon. counts, corners : its polygons, as in `TexturedSurface`.
+    """
+    quads = np.flatnonzero(counts == 4)
+    ring = corners[(np.cumsum(counts) - counts)[quads][:, None] + np.arange(4)]
+    first, second, third, fourth = (mesh.vertices[ring[:, k]] for k in range(4))
+    cut = third - first
+    folds = np.einsum("qi,qi->q", np.cross(second - first, cut), np.cross(fourth - first, cut)) > 0
+    pieces = np.where(folds[:, None], ring[:, [0, 1, 3, 1, 2, 3]], ring[:, [0, 1, 2, 0, 2, 3]])
+    faces = mesh.faces.copy()
+    faces[counts[mesh.polygons] == 4] = pieces.reshape(-1, 3)
+    return TriMesh(mesh.vertices, faces, mesh.polygons)
+
+
 @dataclass(frozen=True, eq=False)
 class TexturedSurface:
     """A mesh with texture coordinates.
 
     Attributes
     ----------
-    mesh : its triangles; vertex i is the artist's vertex i.
+    mesh : its triangles, polygon after polygon; vertex i is the artist's vertex i.
     counts : (P,) corners of each polygon. corners : (C,) their vertices, polygon after polygon.
     uvs : (C, 2) texture coordinates of the corners.
     """

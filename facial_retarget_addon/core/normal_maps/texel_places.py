@@ -79,16 +79,28 @@ def _ring_placed(surface: TexturedSurface, fine: TriMesh, around: Ring, caster: 
         np.where(kept, beyond.face, edge.face),
         np.where(kept[:, None], beyond.weights, edge.weights),
     )
-    found = np.flatnonzero(placed.face >= 0)
-    return TexelPlaces(Texels(*(part[found] for part in placed.texels)), *(part[found] for part in placed[1:]))
+    found: BoolArray = placed.face >= 0
+    return TexelPlaces(
+        Texels(around.pixel[found], around.face[found], placed.texels.weights[found]),
+        placed.place[found],
+        placed.face[found],
+        placed.weights[found],
+    )
 
 
 def _merged(one: TexelPlaces, other: TexelPlaces) -> TexelPlaces:
     """Texels of both, by their pixels."""
     order = np.argsort(np.concatenate([one.texels.pixel, other.texels.pixel]))
-    texels = Texels(*(np.concatenate(pair)[order] for pair in zip(one.texels, other.texels, strict=True)))
-    rest = (np.concatenate(pair)[order] for pair in zip(one[1:], other[1:], strict=True))
-    return TexelPlaces(texels, *rest)
+    return TexelPlaces(
+        Texels(
+            np.concatenate([one.texels.pixel, other.texels.pixel])[order],
+            np.concatenate([one.texels.face, other.texels.face])[order],
+            np.concatenate([one.texels.weights, other.texels.weights])[order],
+        ),
+        np.concatenate([one.place, other.place])[order],
+        np.concatenate([one.face, other.face])[order],
+        np.concatenate([one.weights, other.weights])[order],
+    )
 
 
 def _places(
