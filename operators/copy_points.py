@@ -4,7 +4,7 @@ from typing import Any
 
 from bpy.types import Context, Operator
 
-from ..facial_retarget_addon.translations import told
+from ..facial_retarget_addon.translations import filled, told
 from .in_steps import InSteps
 from .polls import OnFace
 
@@ -23,10 +23,10 @@ class FACIAL_RETARGET_OT_copy_points(OnFace, InSteps, Operator):
         if not super().poll(context):
             return False
         if not len(context.active_object.facial_retarget.points):
-            cls.poll_message_set("The active object has no feature points to copy")
+            cls.poll_message_set(filled("The active object has no feature points to copy"))
             return False
         if not any(thing.type == "MESH" and thing != context.active_object for thing in context.selected_objects):
-            cls.poll_message_set("Select the faces that shall get the points, and the one that has them last")
+            cls.poll_message_set(filled("Select the faces that shall get the points, and the one that has them last"))
             return False
         return True
 

@@ -8,6 +8,7 @@ from bpy.types import Context, Operator
 from bpy_extras.io_utils import ExportHelper
 
 from ..facial_retarget_addon.fap_controls import CONTROLS
+from ..facial_retarget_addon.translations import filled
 from .in_steps import FromBrowser, InSteps
 from .over_frames import OverFrames
 from .polls import OnTask
@@ -50,7 +51,7 @@ class FACIAL_RETARGET_OT_export_curves(OnTask, OverFrames, FromBrowser, ExportHe
         if not super().poll(context):
             return False
         if getattr(context.scene.facial_retarget.target.data, "shape_keys", None) is None:
-            cls.poll_message_set("The target has no shape keys: bake the performance as some")
+            cls.poll_message_set(filled("The target has no shape keys: bake the performance as some"))
             return False
         return True
 
@@ -80,7 +81,7 @@ class FACIAL_RETARGET_OT_export_faps(OnTask, OverFrames, FromBrowser, ExportHelp
             return False
         if not any(control.name in context.scene.facial_retarget.target for control in CONTROLS):
             cls.poll_message_set(
-                "No FAPs drive the target: Export Motion, under MPEG-4 Face, measures them on its mesh"
+                filled("No FAPs drive the target: Export Motion, under MPEG-4 Face, measures them on its mesh")
             )
             return False
         return True

@@ -3,7 +3,7 @@
 from bpy.props import StringProperty
 from bpy.types import Context, Event, Operator
 
-from ..facial_retarget_addon.translations import told
+from ..facial_retarget_addon.translations import filled, told
 from .polls import OnTask
 
 
@@ -42,7 +42,7 @@ class FACIAL_RETARGET_OT_remove_example(OnTask, Operator):
         """As `OnTask`; the list must have a chosen row."""
         task = context.scene.facial_retarget
         if task.active_example not in range(len(task.examples)):
-            cls.poll_message_set("Choose an example in the list")
+            cls.poll_message_set(filled("Choose an example in the list"))
             return False
         return super().poll(context)
 

@@ -5,7 +5,7 @@ from typing import Any
 from bpy.props import EnumProperty, FloatProperty, StringProperty
 from bpy.types import Context, Event, Operator
 
-from ..facial_retarget_addon.translations import told
+from ..facial_retarget_addon.translations import OURS, told
 from .errors import tells_user
 from .in_steps import InSteps
 from .polls import OnTask
@@ -16,7 +16,13 @@ class OnExample(OnTask):
     """For operators on one example, on one face."""
 
     example: StringProperty(name="Example", description="Its name; all of the list if empty")
-    side: EnumProperty(name="Face", items=SIDES, default="TARGET", description="Which face's example it is")
+    side: EnumProperty(
+        name="Face",
+        items=SIDES,
+        default="TARGET",
+        description="Which face's example it is",
+        translation_context=OURS,
+    )
 
     def face(self, context: Context) -> Any:
         """The face object."""

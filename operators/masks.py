@@ -2,6 +2,8 @@
 
 from bpy.types import Context, Operator
 
+from ..facial_retarget_addon.translations import filled
+
 
 class OnTarget:
     """For operators on the target."""
@@ -10,7 +12,7 @@ class OnTarget:
     def poll(cls, context: Context) -> bool:
         """A target must be chosen."""
         if context.scene.facial_retarget.target is None:
-            cls.poll_message_set("Choose a target under Faces")
+            cls.poll_message_set(filled("Choose a target under Faces"))
             return False
         return True
 
@@ -43,7 +45,7 @@ class FACIAL_RETARGET_OT_remove_mask(OnTarget, Operator):
         if not super().poll(context):
             return False
         if not len(context.scene.facial_retarget.masks):
-            cls.poll_message_set("There is no mask")
+            cls.poll_message_set(filled("There is no mask"))
             return False
         return True
 

@@ -8,7 +8,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, St
 from bpy.types import Context, Operator
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
-from ..facial_retarget_addon.translations import told
+from ..facial_retarget_addon.translations import OURS, told
 from .in_steps import FromBrowser, InSteps
 from .over_frames import OverFrames
 from .polls import OnFace
@@ -46,6 +46,7 @@ class FACIAL_RETARGET_OT_import_motion(OnFace, FromBrowser, ImportHelper, InStep
     )
     missing: EnumProperty(
         name="Unused FAPs",
+        translation_context=OURS,
         description="What becomes of a FAP at frames that do not use it",
         items=[
             ("hold", "Hold", "A FAP that a frame does not use stays as it was"),

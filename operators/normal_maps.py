@@ -5,7 +5,7 @@ from typing import Any
 from bpy.types import Context, Operator
 
 from ..facial_retarget_addon.core.methods.settings import LEVELED
-from ..facial_retarget_addon.translations import told
+from ..facial_retarget_addon.translations import filled, told
 from .in_steps import InSteps
 from .polls import OnTask
 
@@ -26,7 +26,7 @@ class FACIAL_RETARGET_OT_make_normal_maps(OnTask, InSteps, Operator):
             cls.poll_message_set(told(f"This method has no levels; {' and '.join(LEVELED)} have"))
             return False
         if not task.normal_maps.folder:
-            cls.poll_message_set("Choose a folder for the maps")
+            cls.poll_message_set(filled("Choose a folder for the maps"))
             return False
         return super().poll(context)
 

@@ -5,6 +5,7 @@ from bpy.props import StringProperty
 from bpy.types import Context, Operator
 
 from ..facial_retarget_addon.manual import FOLDER
+from ..facial_retarget_addon.translations import filled
 
 
 class FACIAL_RETARGET_OT_open_manual(Operator):
@@ -19,7 +20,7 @@ class FACIAL_RETARGET_OT_open_manual(Operator):
     def poll(cls, context: Context) -> bool:
         """The pages are made when the extension is built."""
         if not FOLDER.is_dir():
-            cls.poll_message_set("The manual is part of the built extension, not of its sources")
+            cls.poll_message_set(filled("The manual is part of the built extension, not of its sources"))
             return False
         return True
 

@@ -2,14 +2,16 @@
 
 from bpy.types import Context
 
+from ..facial_retarget_addon.translations import filled
+
 
 def in_mode(cls: type, context: Context, modes: tuple[str, ...] = ("OBJECT",)) -> bool:
     """Whether nothing is being computed and Blender is in one of the modes; the tooltip says it if not."""
     if context.window_manager.facial_retarget.running:
-        cls.poll_message_set("Wait for what is being computed, or stop it with Esc")
+        cls.poll_message_set(filled("Wait for what is being computed, or stop it with Esc"))
         return False
     if context.mode not in modes:
-        cls.poll_message_set("Switch to Object Mode")
+        cls.poll_message_set(filled("Switch to Object Mode"))
         return False
     return True
 
@@ -23,7 +25,7 @@ class OnFace:
     def poll(cls, context: Context) -> bool:
         """A mesh object must be active, in a mode that the operator can work in."""
         if context.active_object is None or context.active_object.type != "MESH":
-            cls.poll_message_set("Select a mesh object: the source or the target face")
+            cls.poll_message_set(filled("Select a mesh object: the source or the target face"))
             return False
         return in_mode(cls, context, cls.modes)
 
@@ -40,7 +42,7 @@ class OnChosen(OnFace):
             return False
         face = context.active_object.facial_retarget
         if getattr(face, cls.chosen) not in range(len(getattr(face, cls.listed))):
-            cls.poll_message_set(cls.missing)
+            cls.poll_message_set(filled(cls.missing))
             return False
         return True
 
@@ -56,7 +58,7 @@ class OnPoints(OnFace):
         if not super().poll(context):
             return False
         if not len(context.active_object.facial_retarget.points):
-            cls.poll_message_set(cls.missing)
+            cls.poll_message_set(filled(cls.missing))
             return False
         return True
 
@@ -70,7 +72,7 @@ class OnProposals(OnFace):
         if not super().poll(context):
             return False
         if not len(context.active_object.facial_retarget.proposals):
-            cls.poll_message_set("No points are proposed: place a few, or press Guess Points")
+            cls.poll_message_set(filled("No points are proposed: place a few, or press Guess Points"))
             return False
         return True
 
@@ -85,7 +87,7 @@ class OnTask:
         """Source and target must be chosen, in a mode that the operator can work in."""
         task = context.scene.facial_retarget
         if task.source is None or task.target is None:
-            cls.poll_message_set("Choose a source and a target under Faces")
+            cls.poll_message_set(filled("Choose a source and a target under Faces"))
             return False
         return in_mode(cls, context, cls.modes)
 
@@ -97,7 +99,7 @@ class OnTarget:
     def poll(cls, context: Context) -> bool:
         """A target must be chosen, in Object Mode."""
         if context.scene.facial_retarget.target is None:
-            cls.poll_message_set("Choose a target under Faces")
+            cls.poll_message_set(filled("Choose a target under Faces"))
             return False
         return in_mode(cls, context)
 
@@ -110,12 +112,12 @@ class OnCloning:
         """What the shapes come from and where they go must be chosen, in Object Mode."""
         task = context.scene.facial_retarget
         if task.cloning.donor == "SOURCE" and task.source is None:
-            cls.poll_message_set("Choose a source under Faces, or clone from the built-in actor")
+            cls.poll_message_set(filled("Choose a source under Faces, or clone from the built-in actor"))
             return False
         if task.cloning.targets == "TARGET" and task.target is None:
-            cls.poll_message_set("Choose a target under Faces, or clone onto the selected heads")
+            cls.poll_message_set(filled("Choose a target under Faces, or clone onto the selected heads"))
             return False
         if task.cloning.targets == "SELECTED" and not context.selected_objects:
-            cls.poll_message_set("Select the heads that shall get the shapes")
+            cls.poll_message_set(filled("Select the heads that shall get the shapes"))
             return False
         return in_mode(cls, context)

@@ -7,6 +7,7 @@ from bpy.types import Context, Operator
 
 from ..facial_retarget_addon.preview_state import STATE
 from ..facial_retarget_addon.properties.methods import METHOD_ITEMS
+from ..facial_retarget_addon.translations import filled
 from .in_steps import InSteps
 from .polls import OnTask
 
@@ -41,10 +42,10 @@ class FACIAL_RETARGET_OT_stop_preview(Operator):
     def poll(cls, context: Context) -> bool:
         """The preview must be on, and its shape key within reach."""
         if not STATE.on:
-            cls.poll_message_set("The live preview is off")
+            cls.poll_message_set(filled("The live preview is off"))
             return False
         if context.mode == "EDIT_MESH":
-            cls.poll_message_set("Leave Edit Mode")
+            cls.poll_message_set(filled("Leave Edit Mode"))
             return False
         return True
 

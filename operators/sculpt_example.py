@@ -3,7 +3,7 @@
 from bpy.props import EnumProperty, StringProperty
 from bpy.types import Context, Operator
 
-from ..facial_retarget_addon.translations import filled, told
+from ..facial_retarget_addon.translations import OURS, filled, told
 from .errors import tells_user
 from .polls import OnTask, in_mode
 
@@ -19,13 +19,19 @@ class FACIAL_RETARGET_OT_sculpt_example(OnTask, Operator):
     modes = ("OBJECT", "SCULPT")
 
     example: StringProperty(name="Example", description="Its name; the chosen one of the list if empty")
-    side: EnumProperty(name="Face", items=SIDES, default="TARGET", description="Which face is sculpted")
+    side: EnumProperty(
+        name="Face",
+        items=SIDES,
+        default="TARGET",
+        description="Which face is sculpted",
+        translation_context=OURS,
+    )
 
     @classmethod
     def poll(cls, context: Context) -> bool:
         """As `OnTask`; of Sculpt Mode only that of another example."""
         if context.mode == "SCULPT" and context.scene.facial_retarget.sculpting.thing != context.active_object:
-            cls.poll_message_set("Switch to Object Mode")
+            cls.poll_message_set(filled("Switch to Object Mode"))
             return False
         return super().poll(context)
 
@@ -63,7 +69,7 @@ class FACIAL_RETARGET_OT_stop_sculpting(Operator):
     def poll(cls, context: Context) -> bool:
         """An example must be in work."""
         if context.scene.facial_retarget.sculpting.thing is None:
-            cls.poll_message_set("No example is being sculpted")
+            cls.poll_message_set(filled("No example is being sculpted"))
             return False
         return in_mode(cls, context, ("OBJECT", "SCULPT"))
 

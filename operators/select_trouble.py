@@ -4,7 +4,7 @@ from bpy.props import EnumProperty
 from bpy.types import Context, Operator
 
 from ..facial_retarget_addon import guide
-from ..facial_retarget_addon.translations import told
+from ..facial_retarget_addon.translations import filled, told
 from .errors import tells_user
 from .polls import in_mode
 
@@ -32,7 +32,7 @@ class FACIAL_RETARGET_OT_select_trouble(Operator):
         """A row of the report must be chosen."""
         thing = guide.found_face(context)
         if thing is None or not 0 <= thing.facial_retarget.active_finding < len(thing.facial_retarget.findings):
-            cls.poll_message_set("Choose a frame or a shape key in the report's list")
+            cls.poll_message_set(filled("Choose a frame or a shape key in the report's list"))
             return False
         return in_mode(cls, context, ("OBJECT", "EDIT_MESH"))
 

@@ -3,6 +3,7 @@
 import bpy
 from bpy.types import Context, Operator
 
+from ..facial_retarget_addon.translations import filled
 from .polls import OnTask
 
 
@@ -16,7 +17,7 @@ class FACIAL_RETARGET_OT_set_up_workspace(OnTask, Operator):
     def poll(cls, context: Context) -> bool:
         """As `OnTask`; there must be a window."""
         if bpy.app.background:
-            cls.poll_message_set("Workspaces need a window")
+            cls.poll_message_set(filled("Workspaces need a window"))
             return False
         return super().poll(context)
 

@@ -3,6 +3,7 @@
 from bpy.props import BoolProperty
 from bpy.types import Context, Operator
 
+from ..facial_retarget_addon.translations import OURS
 from .errors import tells_user
 from .place_point import WithTool
 
@@ -14,7 +15,12 @@ class FACIAL_RETARGET_OT_skip_point(WithTool, Operator):
     bl_label = "Skip Feature Point"
     bl_options = {"REGISTER", "UNDO"}
 
-    back: BoolProperty(name="Back", description="Go back to the point that was skipped last", options={"SKIP_SAVE"})
+    back: BoolProperty(
+        name="Back",
+        description="Go back to the point that was skipped last",
+        options={"SKIP_SAVE"},
+        translation_context=OURS,
+    )
 
     @tells_user
     def execute(self, context: Context) -> set[str]:

@@ -4,6 +4,7 @@ import bpy
 from bpy.props import EnumProperty
 from bpy.types import Context, Operator
 
+from ..facial_retarget_addon.translations import filled
 from ..facial_retarget_addon.viewport.state import TOOL
 from .polls import OnTask
 
@@ -25,7 +26,7 @@ class FACIAL_RETARGET_OT_start_placing(OnTask, Operator):
     def poll(cls, context: Context) -> bool:
         """As `OnTask`; the tool stands in 3D views."""
         if context.area is None or context.area.type != "VIEW_3D":
-            cls.poll_message_set("Points are placed in a 3D view")
+            cls.poll_message_set(filled("Points are placed in a 3D view"))
             return False
         return super().poll(context)
 

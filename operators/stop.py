@@ -2,6 +2,8 @@
 
 from bpy.types import Context, Operator
 
+from ..facial_retarget_addon.translations import filled
+
 
 class FACIAL_RETARGET_OT_stop(Operator):
     """Stop what is being computed; nothing is changed then"""
@@ -13,7 +15,7 @@ class FACIAL_RETARGET_OT_stop(Operator):
     def poll(cls, context: Context) -> bool:
         """Something must be computed."""
         if not context.window_manager.facial_retarget.running:
-            cls.poll_message_set("Nothing is being computed")
+            cls.poll_message_set(filled("Nothing is being computed"))
             return False
         return True
 

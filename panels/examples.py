@@ -2,7 +2,7 @@
 
 from bpy.types import Context, Panel, PropertyGroup, UILayout, UIList
 
-from ..facial_retarget_addon.translations import filled, told
+from ..facial_retarget_addon.translations import OURS, filled, told
 from .tab import Step, draw_text
 
 
@@ -82,7 +82,7 @@ def _draw_chosen(layout: UILayout, context: Context, example: PropertyGroup) -> 
         column = columns.column(align=True)
         column.label(text=label)
         for button in (
-            column.operator("facial_retarget.sculpt_example", text="Sculpt", icon="SCULPTMODE_HLT"),
+            column.operator("facial_retarget.sculpt_example", text="Sculpt", text_ctxt=OURS, icon="SCULPTMODE_HLT"),
             column.operator_menu_enum("facial_retarget.rough_out", "way", icon="OUTLINER_DATA_POINTCLOUD"),
             column.operator_menu_enum("facial_retarget.mirror_example", "way", icon="MOD_MIRROR"),
             column.operator("facial_retarget.scale_example", icon="FULLSCREEN_ENTER"),

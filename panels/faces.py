@@ -2,6 +2,7 @@
 
 from bpy.types import Context, Panel
 
+from ..facial_retarget_addon.translations import OURS
 from .tab import Step
 
 
@@ -20,7 +21,7 @@ class FACIAL_RETARGET_PT_faces(Step, Panel):
         layout.prop(task, "source")
         layout.prop(task, "source_neutral")
         if task.source_neutral == "FRAME":
-            layout.prop(task, "neutral_frame", text="At")
+            layout.prop(task, "neutral_frame", text="At", text_ctxt=OURS)
         layout.prop(task, "target")
         layout.operator("facial_retarget.set_up_workspace", icon="WORKSPACE")
         layout.operator("facial_retarget.add_faces", icon="ADD")

@@ -2,7 +2,7 @@
 
 from bpy.types import Context, Panel, PropertyGroup, UI_UL_list, UILayout, UIList
 
-from ..facial_retarget_addon.translations import filled, told
+from ..facial_retarget_addon.translations import OURS, filled, told
 from .tab import RetargetTab, Step, draw_text
 
 LISTS = {"PLACED": ("points", "active_point"), "PROPOSED": ("proposals", "active_proposal")}
@@ -81,7 +81,7 @@ class FACIAL_RETARGET_PT_points(Step, Panel):
         column.operator_menu_enum("facial_retarget.mirror_points", "which", icon="MOD_MIRROR")
         column.operator("facial_retarget.copy_points", icon="COPYDOWN")
         row = column.row(align=True)
-        row.operator("facial_retarget.load_points", text="Load", icon="IMPORT")
+        row.operator("facial_retarget.load_points", text="Load", text_ctxt=OURS, icon="IMPORT")
         row.operator("facial_retarget.save_points", text="Save", icon="EXPORT")
 
 

@@ -4,6 +4,7 @@ from bpy.props import BoolProperty, CollectionProperty, EnumProperty, IntPropert
 from bpy.types import Context, Object, PropertyGroup
 
 from ..core.point_sets import POINT_SETS, next_point
+from ..translations import OURS
 from .cloning import FACIAL_RETARGET_PG_cloned_key
 from .findings import FACIAL_RETARGET_PG_finding
 from .parts import FACIAL_RETARGET_PG_part
@@ -52,6 +53,7 @@ class FACIAL_RETARGET_PG_face(PropertyGroup):
         items=POINT_SET_ITEMS,
         default="FMC",
         description="Which feature points the face shall have",
+        translation_context=OURS,
         update=_set_chosen,
     )
     skipped: CollectionProperty(

@@ -8,6 +8,7 @@ from bpy.types import PropertyGroup
 
 from ..core.methods import METHODS
 from ..core.methods.settings import MASK_GAIN, SETTINGS, RegionGains
+from ..translations import OURS
 from .choices import label, tell
 
 LEVEL_GAINS = 6
@@ -23,7 +24,7 @@ def _property(setting: Field, tells: str) -> Any:
     text = {"name": label(setting.name), "description": limits["help"], "update": tell(tells)}
     if isinstance(setting.default, str):
         items = [(choice, choice.capitalize(), limits["help"]) for choice in limits["choices"]]
-        return EnumProperty(items=items, default=setting.default, **text)
+        return EnumProperty(items=items, default=setting.default, translation_context=OURS, **text)
     text |= {"min": limits["low"], "max": limits["high"]}
     if isinstance(setting.default, tuple):
         return FloatVectorProperty(size=LEVEL_GAINS, default=(1.0,) * LEVEL_GAINS, **text)

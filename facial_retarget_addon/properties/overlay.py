@@ -3,6 +3,8 @@
 from bpy.props import BoolProperty, EnumProperty
 from bpy.types import PropertyGroup
 
+from ..translations import OURS
+
 
 class FACIAL_RETARGET_PG_overlay(PropertyGroup):
     """What is drawn over the faces in the 3D views."""
@@ -20,6 +22,7 @@ class FACIAL_RETARGET_PG_overlay(PropertyGroup):
     show_heat: BoolProperty(name="Heat Map", description="Show a figure of each vertex of the target as colour")
     heat: EnumProperty(
         name="Figure",
+        translation_context=OURS,
         items=[
             ("STRETCH", "Stretch", "How many times its neutral length the most stretched edge at a vertex has"),
             ("BEYOND", "Beyond the Source", "Stretch over the source's at the same place; needs a retargeting"),

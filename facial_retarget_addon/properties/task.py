@@ -4,6 +4,7 @@ from bpy.props import BoolProperty, CollectionProperty, EnumProperty, IntPropert
 from bpy.types import Object, PropertyGroup
 
 from ..core.methods import METHODS
+from ..translations import OURS
 from .bakes import FACIAL_RETARGET_PG_bake
 from .choices import is_mesh, label, tell
 from .cloning import FACIAL_RETARGET_PG_cloning
@@ -74,7 +75,12 @@ class FACIAL_RETARGET_PG_task(PropertyGroup):
     regions: PointerProperty(type=FACIAL_RETARGET_PG_regions)
     masks: CollectionProperty(type=FACIAL_RETARGET_PG_mask, description="Painted masks of the target")
     active_mask: IntProperty(name="Active Mask", description="The mask that is chosen in the list")
-    report: StringProperty(name="Report", subtype="FILE_PATH", description="Where to write the figures (.json)")
+    report: StringProperty(
+        name="Report",
+        subtype="FILE_PATH",
+        description="Where to write the figures (.json)",
+        translation_context=OURS,
+    )
     page: StringProperty(name="Page", subtype="FILE_PATH", description="Where to write the page to look at (.html)")
     output: StringProperty(
         name="Frames", subtype="FILE_PATH", description="Where the command line writes the frames of a saved job"

@@ -12,7 +12,12 @@ LANGUAGES = {"de_DE": de, "de": de}
 SENTENCES = {language: Sentences(texts.SENTENCES, texts.PHRASES) for language, texts in LANGUAGES.items()}
 """The same -> what is said with values filled in."""
 
-CONTEXTS = ("*", "Operator")
+OURS = "Facial Retarget"
+"""A context for short words of which Blender's own translation means something else: `translation_context=OURS` of a
+property, `text_ctxt=OURS` of a button. Everywhere else Blender's translation of a text comes before ours.
+"""
+
+CONTEXTS = ("*", "Operator", OURS)
 """Where Blender looks texts up: buttons of operators have a place of their own."""
 
 

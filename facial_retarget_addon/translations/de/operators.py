@@ -314,7 +314,7 @@ TEXTS = {
     "Enable the add-on glTF 2.0 Format in the preferences": (
         "Das Add-on „glTF 2.0 format“ in den Einstellungen einschalten"
     ),
-    "Export Curves": "Kurven exportieren",
+    "Export Curves": "Kurvenexport",
     "Export the curves of the target's shape keys as a table or a document, frame by frame; Esc stops": (
         "Die Kurven der Formschlüssel des Ziels als Tabelle oder Dokument exportieren, Bild für Bild; Esc hält an"
     ),
@@ -332,7 +332,7 @@ TEXTS = {
     "The target has no shape keys: bake the performance as some": (
         "Das Ziel hat keine Formschlüssel: die Darbietung als solche backen"
     ),
-    "Export FAPs": "FAPs exportieren",
+    "Export FAPs": "FAP-Export",
     "Export the MPEG-4 FAPs that drive the target, as its controls stand frame by frame; Esc stops": (
         "Die MPEG-4-FAPs exportieren, die das Ziel bewegen, wie seine Regler Bild für Bild stehen; Esc hält an"
     ),

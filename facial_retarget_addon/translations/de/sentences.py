@@ -486,6 +486,15 @@ SENTENCES = {
     "NLA track {} of {} stays as it is": "NLA-Spur {} von {} bleibt, wie sie ist",
     "shapes that do not move the source: {}": "Formen, die die Quelle nicht bewegen: {}",
     "shapes that hardly move the target: {}": "Formen, die das Ziel kaum bewegen: {}",
+    "{} parts of the target ({} vertices) hold no feature point and stay put{}": (
+        "{} Teile des Ziels ({} Eckpunkte) tragen keinen Merkmalspunkt und bleiben stehen{:said}"
+    ),
+    "{} means something only together with {}, but {} is not among the shapes: it was cloned alone": (
+        "{} bedeutet nur zusammen mit {} etwas, aber {} ist nicht unter den Formen: allein geklont"
+    ),
+    "corrected shapes that do not move the source's points teach nothing: {}": (
+        "verbesserte Formen, die die Punkte der Quelle nicht bewegen, lehren nichts: {}"
+    ),
     "no counterpart for {}: {}": "kein Gegenstück für {}: {:said}",
     "no {} was found on the target: what the source's does has no counterpart": (
         "auf dem Ziel fehlt {}: was das der Quelle tut, hat kein Gegenstück"
@@ -553,6 +562,37 @@ SENTENCES = {
 """English pattern -> German pattern."""
 
 PHRASES = {
+    " ({})": " ({:said})",
+    "other": "sonstige",
+    "{} and {}": "{:said} und {:said}",
+    "behind the mouth": "hinter dem Mund",
+    "eyeball": "Augapfel",
+    "around an eye": "um ein Auge",
+    "upper part of the mouth": "oberer Teil des Mundes",
+    "lower part of the mouth": "unterer Teil des Mundes",
+    "inside of the mouth": "das Innere des Mundes",
+    "brow": "Braue",
+    "mouth": "Mund",
+    "cheek": "Wange",
+    "neck": "Hals",
+    "nose": "Nase",
+    "ear": "Ohr",
+    "forehead": "Stirn",
+    "left eyeball": "linker Augapfel",
+    "right eyeball": "rechter Augapfel",
+    "upper teeth": "obere Zähne",
+    "lower teeth": "untere Zähne",
+    "gums": "Zahnfleisch",
+    "tongue": "Zunge",
+    "lashes": "Wimpern",
+    "brows": "Brauen",
+    "moustache": "Schnurrbart",
+    "beard": "Bart",
+    "upper row of teeth": "die obere Zahnreihe",
+    "lower row of teeth": "die untere Zahnreihe",
+    "acts on the {}, which the target lacks": "wirkt auf Teile ({:said}), die dem Ziel fehlen",
+    "acts on the {} alone, which moves nothing here": "wirkt allein auf Teile ({:said}), und das bewegt hier nichts",
+    "needs {}, which has no counterpart": "braucht {}, das kein Gegenstück hat",
     "torn edges": "gerissene Kanten",
     "turned triangles": "umgedrehte Dreiecke",
     "gap between the lips": "Spalt zwischen den Lippen",
