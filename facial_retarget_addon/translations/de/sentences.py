@@ -497,7 +497,7 @@ SENTENCES = {
     ),
     "no counterpart for {}: {}": "kein Gegenstück für {}: {:said}",
     "no {} was found on the target: what the source's does has no counterpart": (
-        "auf dem Ziel fehlt {}: was das der Quelle tut, hat kein Gegenstück"
+        "auf dem Ziel fehlt {:said}: was das der Quelle tut, hat kein Gegenstück"
     ),
     # What the checks find before a retargeting.
     "the source does not move: all its frames are the neutral face": (
