@@ -65,7 +65,7 @@ class ExportHead(OnTarget, FromBrowser, ExportHelper, InSteps):
     def poll(cls, context: Context) -> bool:
         """As `OnTarget`; the exporter must be there."""
         if not cls.has_exporter():
-            cls.poll_message_set(cls.missing)
+            cls.poll_message_set(filled(cls.missing))
             return False
         return super().poll(context)
 
