@@ -8,6 +8,10 @@ from statistics import median
 from time import perf_counter
 
 
+class LeftOut(Exception):
+    """A section needs something that is not here; says what."""
+
+
 @dataclass(frozen=True)
 class Row:
     """One figure, and the bound it is held against: met where `value <= bound`, or >= with `at_least`."""

@@ -1,16 +1,12 @@
 """Builds the zip, installs it into a fresh user folder of a real Blender, and plays scenarios in its window."""
 
 import os
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 import window
 
-REPOSITORY = Path(__file__).resolve().parents[2]
-ROOT = Path(os.environ.get("FACIAL_RETARGET_BLENDER_ROOT", REPOSITORY / "build" / "blender-root"))
 PICTURES = os.environ.get("FACIAL_RETARGET_PICTURES")
 """A folder that keeps what the scenarios write, such as their screenshots; a temporary one if none is named."""
 
@@ -18,9 +14,9 @@ PICTURES = os.environ.get("FACIAL_RETARGET_PICTURES")
 @pytest.fixture(scope="session")
 def root() -> Path:
     """The folder with the real Blender; the tests are skipped where `make gui-test` has not made it."""
-    if (ROOT / "usr" / "bin" / "blender").exists() and os.geteuid() == 0:
-        return ROOT
-    missing = "root rights" if os.geteuid() else f"a Blender in {ROOT}, which make gui-test makes"
+    missing = window.lacks()
+    if not missing:
+        return window.ROOT
     if os.environ.get("CI"):
         pytest.fail(f"CI always plays in a window, and that needs {missing}")
     pytest.skip(f"playing in a window needs {missing}")
@@ -30,9 +26,7 @@ def root() -> Path:
 def user(root: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A user folder in which the extension is installed as it ships."""
     made, out = tmp_path_factory.mktemp("user"), tmp_path_factory.mktemp("dist")
-    subprocess.run([sys.executable, REPOSITORY / "build_extension.py", "--out", out], check=True)
-    (archive,) = out.glob("*.zip")
-    window.install(root, made, archive)
+    window.install_as_shipped(root, made, out)
     return made
 
 
