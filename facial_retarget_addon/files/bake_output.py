@@ -14,7 +14,7 @@ from ..core.base.regions import eye_separation
 from ..core.errors import RetargetError
 from ..core.methods.settings import BakeSettings, read_values
 from ..core.problem import Face
-from ..core.reduction.bake_keys import BakedKeys, RigKeys, compact_keys, onto_rig
+from ..core.reduction.bake_keys import BakedKeys, RigKeys, check_rig, compact_keys, onto_rig
 from ..core.shapes.shape_set import ShapeSet
 from .curves import Curves, add_curves, check_curves_place
 from .documents import Table
@@ -135,7 +135,7 @@ def read_rig(output: BakeOutput, target: MeshFile) -> RigKeys | None:
 
     Raises
     ------
-    RetargetError : as `read_shapes`; for a range of a shape that is not among them.
+    RetargetError : as `read_shapes` and `check_rig`; for a range of a shape that is not among them.
     """
     if output.rig is None:
         return None
@@ -144,7 +144,12 @@ def read_rig(output: BakeOutput, target: MeshFile) -> RigKeys | None:
     if unknown:
         raise RetargetError(f"[bake] ranges has a shape {unknown[0]!r}, which {output.rig} lacks")
     ends = np.array([output.ranges.get(name, RANGE) for name in shapes.names])
-    return RigKeys(shapes.names, shapes.displacements, ends[:, 0], ends[:, 1])
+    rig = RigKeys(shapes.names, shapes.displacements, ends[:, 0], ends[:, 1])
+    try:
+        check_rig(rig, output.settings)
+    except RetargetError as error:
+        raise RetargetError(f"{output.rig}: {error}") from error
+    return rig
 
 
 def bake_frames(

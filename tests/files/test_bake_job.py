@@ -197,12 +197,20 @@ def test_a_bake_that_is_wrong(tmp_path, old, new, expected):
     assert expected in str(error.value)
 
 
+def still(folder: Path) -> Path:
+    """A set with a shape that is the target's neutral."""
+    with open(folder / "still.npz", "wb") as file:
+        write_arrays(file, {"nothing": read_mesh(folder / "target.obj").mesh.vertices})
+    return folder / "still.npz"
+
+
 @pytest.mark.parametrize("command", ["run", "check"])
 @pytest.mark.parametrize(
     ("change", "expected"),
     [
         (lambda bake, folder: replace(bake, rig=folder / "none.npz"), "none.npz cannot be read"),
         (lambda bake, folder: replace(bake, rig=folder / "source_joy.obj"), "is no set of shapes"),
+        (lambda bake, folder: replace(bake, rig=still(folder)), "still.npz: none of the rig's 1 shapes moves a vertex"),
         (lambda bake, folder: replace(bake, ranges={"jaw": (0.0, 2.0)}), "[bake] ranges has a shape 'jaw', which"),
         (
             lambda bake, folder: replace(bake, curves=(folder / "c.txt",)),

@@ -19,6 +19,7 @@ from .rig_fit import fit_to_keys, residual_keys
 
 PREFIX = "retargeted_"
 """What the names of new keys start with."""
+_RESIDUAL = f"{PREFIX}residual_"
 
 
 class RigKeys(NamedTuple):
@@ -93,18 +94,25 @@ def onto_rig(
 
     Raises
     ------
-    RetargetError : as `fit_to_keys`; if a key that is there has the name of a new one.
+    RetargetError : as `fit_to_keys` and `check_rig`.
     """
+    check_rig(rig, settings)
     moves = _moves(face, frames)
     ranges: list[slice] = []
     if settings.residual:
         ranges = [slice(first, first + settings.residual) for first in range(0, len(moves), settings.residual)]
-    new = tuple(f"{PREFIX}residual_{number}" for number in range(1, len(ranges) + 1))
-    taken = sorted(set(new) & set(rig.names))
-    if taken:
-        raise RetargetError(f"the rig has a shape {taken[0]!r} already, expected another name than that of a new key")
+    new = tuple(f"{_RESIDUAL}{number}" for number in range(1, len(ranges) + 1))
     keyed = fit_to_keys(moves, rig.shapes, rig.low, rig.high, settings.smoothness, settings.sparsity, progress)
     return BakedKeys((*rig.names, *new), residual_keys(moves, keyed, ranges) if ranges else keyed, len(ranges))
+
+
+def check_rig(rig: RigKeys, settings: BakeSettings) -> None:
+    """RetargetError if frames cannot be fitted to a rig: nothing moves, or a key has the name of a residual one."""
+    if not rig.shapes.any():
+        raise RetargetError(f"none of the rig's {len(rig.names)} shapes moves a vertex, expected some that do")
+    taken = sorted(name for name in rig.names if name.startswith(_RESIDUAL)) if settings.residual else []
+    if taken:
+        raise RetargetError(f"the rig has a shape {taken[0]!r}, expected another name than those of residual keys")
 
 
 def _moves(face: Face, frames: FloatArray) -> FloatArray:
