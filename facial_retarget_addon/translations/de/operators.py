@@ -337,7 +337,7 @@ TEXTS = {
         "Die MPEG-4-FAPs exportieren, die das Ziel bewegen, wie seine Regler Bild für Bild stehen; Esc hält an"
     ),
     "No FAPs drive the target: Export Motion, under MPEG-4 Face, measures them on its mesh": (
-        "Keine FAPs bewegen das Ziel: Bewegung exportieren, unter MPEG-4-Gesicht, misst sie an der Masche"
+        "Keine FAPs bewegen das Ziel: Motion-Export, unter MPEG-4-Gesicht, misst sie an der Masche"
     ),
     "Make Normal Maps": "Normalmaps erstellen",
     "Make a normal map of each frame, which gives a light mesh the wrinkles of the finest level; Esc stops": (
@@ -418,7 +418,7 @@ TEXTS = {
     "Remove the FAP controls of the active face: sliders, their animation, drivers and shape keys": (
         "Die FAP-Regler des aktiven Gesichts entfernen: Regler, ihre Animation, Treiber und Formschlüssel"
     ),
-    "Import Motion": "Bewegung importieren",
+    "Import Motion": "Motion-Import",
     "Import FAPs, ARKit weights or optical markers onto the active face; Esc stops": (
         "FAPs, ARKit-Gewichte oder optische Marker auf das aktive Gesicht importieren; Esc hält an"
     ),
@@ -469,7 +469,7 @@ TEXTS = {
     "The scene takes over the file's rate": "Die Szene übernimmt die Bildrate der Datei",
     "Update Scene Duration": "Dauer der Szene anpassen",
     "The scene's range becomes that of the motion": "Der Bildbereich der Szene wird der der Bewegung",
-    "Export Motion": "Bewegung exportieren",
+    "Export Motion": "Motion-Export",
     "Export the motion of the active face at the scene's rate; Esc stops": (
         "Die Bewegung des aktiven Gesichts in der Bildrate der Szene exportieren; Esc hält an"
     ),

@@ -73,14 +73,14 @@ TEXTS = {
     "{size:.0f} MB on disk": "{size:.0f} MB auf der Platte",
     "At most {size:.0f} MB in the file": "Höchstens {size:.0f} MB in der Datei",
     "For so much, Compact Shape Keys or a cache fit better": (
-        "Für so viel eignen sich kompakte Formschlüssel oder ein Zwischenspeicher besser"
+        "Für so viel eignen sich kompakte Schlüssel oder ein Zwischenspeicher besser"
     ),
     "{milliseconds:.1f} ms a frame": "{milliseconds:.1f} ms je Bild",
     "Torn": "Riss",
     "Folds": "Falte",
-    "Lips%": "Lippe%",
+    "Lips%": "Lip%",
     "Lids%": "Lid%",
-    "Fit s": "Anp. s",
+    "Fit s": "Fit s",
     "ms": "ms",
     "Regions": "Bereiche",
     "Painted Masks": "Gemalte Masken",
@@ -92,7 +92,7 @@ TEXTS = {
     "Lid": "Lid",
     # More.
     "Copy": "Kopieren",
-    "Select a head with cloned shape keys": "Einen Kopf mit geklonten Formschlüsseln auswählen",
+    "Select a head with cloned shape keys": "Einen geklonten Kopf auswählen",
     "Make Shapes": "Formen erstellen",
     "Load Shapes": "Formen laden",
     "Save Shapes": "Formen speichern",

@@ -211,29 +211,29 @@ TEXTS = {
     "A shape key per frame, each shown on its own frame: to edit and to mix": (
         "Ein Formschlüssel je Bild, jeder in seinem Bild gezeigt: zum Bearbeiten und Mischen"
     ),
-    "Absolute Shape Keys": "Absolute Formschlüssel",
+    "Absolute Shape Keys": "Absolute Schlüssel",
     "A shape key per frame, all on one curve: plays many times as fast": (
         "Ein Formschlüssel je Bild, alle auf einer Kurve: spielt um ein Vielfaches schneller"
     ),
-    "Compact Shape Keys": "Kompakte Formschlüssel",
+    "Compact Shape Keys": "Kompakte Schlüssel",
     "As few shape keys as the tolerance allows, each a region, with curves to edit": (
         "So wenige Formschlüssel, wie die Toleranz erlaubt, jeder ein Bereich, mit bearbeitbaren Kurven"
     ),
-    "Own Shape Keys": "Eigene Formschlüssel",
+    "Own Shape Keys": "Eigene Schlüssel",
     "Curves of the shape keys that the target has: your own sliders": (
         "Kurven der Formschlüssel, die das Ziel hat: die eigenen Regler"
     ),
-    "PC2 Cache": "PC2-Zwischenspeicher",
+    "PC2 Cache": "PC2-Datei",
     "A file on disk that a Mesh Cache modifier plays: for long performances": (
         "Eine Datei auf der Platte, die ein Mesh-Cache-Modifikator abspielt: für lange Darbietungen"
     ),
-    "MDD Cache": "MDD-Zwischenspeicher",
+    "MDD Cache": "MDD-Datei",
     "The same, as older programs read it": "Dasselbe, wie ältere Programme es lesen",
-    "Alembic Cache": "Alembic-Zwischenspeicher",
+    "Alembic Cache": "Alembic-Datei",
     "One file of all moved objects that other programs read, and a modifier that plays it": (
         "Eine Datei aller bewegten Objekte, die andere Programme lesen, und ein Modifikator, der sie abspielt"
     ),
-    "USD Cache": "USD-Zwischenspeicher",
+    "USD Cache": "USD-Datei",
     "The same as USD: .usdc, or .usd if you name it so": "Dasselbe als USD: .usdc, oder .usd, wenn die Datei so heißt",
     "Step": "Schritt",
     "Scene frames from one baked frame to the next; below 1 for sub-frames": (
@@ -308,7 +308,7 @@ TEXTS = {
     "The 52 shapes that phones record": "Die 52 Formen, die Telefone aufzeichnen",
     "Visemes": "Viseme",
     "The mouth in speech: MPEG-4's 14": "Der Mund beim Sprechen: die 14 von MPEG-4",
-    "Expressions": "Ausdrücke",
+    "Expressions": "Mimik",
     "joy, sadness, anger, fear, disgust, surprise": (
         "joy, sadness, anger, fear, disgust, surprise (Freude, Trauer, Wut, Angst, Ekel, Überraschung)"
     ),

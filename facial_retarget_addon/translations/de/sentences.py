@@ -451,7 +451,7 @@ SENTENCES = {
     "lid gap {}": "Lidspalt {:said}",
     # Shape keys from head to head.
     "no set of the built-in actor is chosen, expected ARKit, visemes or expressions": (
-        "kein Satz des eingebauten Darstellers ist gewählt; ARKit, Viseme oder Ausdrücke wählen"
+        "kein Satz des eingebauten Darstellers ist gewählt; ARKit, Viseme oder Mimik wählen"
     ),
     "none of the {} selected mesh objects beside the source has feature points, expected faces": (
         "keines der {} ausgewählten Maschenobjekte neben der Quelle hat Merkmalspunkte; Gesichter auswählen"
