@@ -21,6 +21,7 @@ SECTIONS = (
     "normal_maps",
     "bakes",
     "blender_write",
+    "bake_kinds",
     "preview",
     "points",
     "window",

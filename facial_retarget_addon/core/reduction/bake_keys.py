@@ -13,7 +13,7 @@ from ..methods.settings import BakeSettings
 from ..mpeg4.head import gives_axes, head_axes
 from ..problem import Face
 from .compact import compact
-from .keyed import KeyedMotion
+from .keyed import FromNeutral, KeyedMotion
 from .naming import region_names
 from .rig_fit import fit_to_keys, residual_keys
 
@@ -79,7 +79,9 @@ def compact_keys(
     RetargetError : as `compact`.
     """
     rest = face.mesh.vertices
-    keyed = compact(_moves(face, frames), rest, settings.tolerance * unit, unit, np.random.default_rng(0), progress)
+    keyed = compact(
+        FromNeutral(frames, rest), rest, settings.tolerance * unit, unit, np.random.default_rng(0), progress
+    )
     return BakedKeys(_region_names(face, keyed.shapes), keyed, len(keyed.shapes))
 
 
@@ -97,7 +99,7 @@ def onto_rig(
     RetargetError : as `fit_to_keys` and `check_rig`.
     """
     check_rig(rig, settings)
-    moves = _moves(face, frames)
+    moves = FromNeutral(frames, face.mesh.vertices)
     ranges: list[slice] = []
     if settings.residual:
         ranges = [slice(first, first + settings.residual) for first in range(0, len(moves), settings.residual)]
@@ -113,10 +115,6 @@ def check_rig(rig: RigKeys, settings: BakeSettings) -> None:
     taken = sorted(name for name in rig.names if name.startswith(_RESIDUAL)) if settings.residual else []
     if taken:
         raise RetargetError(f"the rig has a shape {taken[0]!r}, expected another name than those of residual keys")
-
-
-def _moves(face: Face, frames: FloatArray) -> FloatArray:
-    return np.asarray(frames, np.float32) - face.mesh.vertices.astype(np.float32)
 
 
 def _region_names(face: Face, shapes: FloatArray) -> tuple[str, ...]:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 
 from ..arrays import FloatArray, IntArray, Progress, no_progress
 from ..errors import RetargetError
-from .keyed import BLOCK, KeyedMotion, measured
+from .keyed import Displacements, KeyedMotion, blocks, measured
 
 _SHARE = 0.5
 """Part of the tolerance that leaving out components may use up; drawing keys together takes the rest."""
@@ -19,12 +20,14 @@ _NEAREST = 0.3
 _LEAST = 0.1
 """What spreading costs there, against 1 at the reach and beyond."""
 _OVERSAMPLING = 8
+_COLUMNS = 4096
+"""Coordinates that are taken in float64 at once."""
 _UNSEEN = 0.1
 """Part of the tolerance that may lie outside the components that the drawing together works with."""
 
 
 def compact(
-    displacements: FloatArray,
+    displacements: Displacements,
     neutral: FloatArray,
     tolerance: float,
     reach: float,
@@ -57,23 +60,21 @@ def compact(
     ----------
     Neumann et al. 2013, "Sparse Localized Deformation Components"; Kaiser 1958 for the turning.
     """
-    if displacements.ndim != 3 or not len(displacements):
+    if len(displacements.shape) != 3 or not len(displacements):
         raise RetargetError(
             f"displacements have shape {displacements.shape}, expected (F, V, 3) with at least one frame"
         )
     if tolerance <= 0 or reach <= 0:
         raise RetargetError(f"tolerance {tolerance} and reach {reach} arrived, expected numbers above 0")
     farthest = np.zeros(displacements.shape[1])
-    for first in range(0, len(displacements), BLOCK):
-        block = displacements[first : first + BLOCK]
+    for _, block in blocks(displacements):
         np.maximum(farthest, np.einsum("fvi,fvi->fv", block, block).max(axis=0), out=farthest)
     moving = np.flatnonzero(np.sqrt(farthest) > tolerance)
     shapes = np.zeros((0, displacements.shape[1], 3), np.float32)
     curves = np.zeros((len(displacements), 0), np.float32)
     if len(moving):
-        motion = displacements[:, moving].reshape(len(displacements), -1)
         progress(0.1, "finding the components")
-        found = _components(motion, _UNSEEN * tolerance * np.sqrt(len(moving)), rng)
+        found = _components(_Moving(displacements, moving), _UNSEEN * tolerance * np.sqrt(len(moving)), rng)
         few = found.fewest(_SHARE * tolerance * np.sqrt(len(moving)))
         curves, flat = few.curves.copy(), few.shapes.copy()
         _turn_to_few_vertices(curves, flat)
@@ -83,6 +84,33 @@ def compact(
         shapes[:, moving] = flat.reshape(len(flat), -1, 3)
     progress(1.0, "done")
     return measured(shapes, curves, displacements, moving)
+
+
+class _Moving:
+    """The motion (F, 3M) of the vertices that move, by its products: itself it would be as large as the frames."""
+
+    def __init__(self, displacements: Displacements, moving: IntArray) -> None:
+        self._displacements, self._moving = displacements, moving
+        self.shape = len(displacements), 3 * len(moving)
+
+    def _blocks(self) -> Iterator[tuple[slice, FloatArray]]:
+        for rows, block in blocks(self._displacements):
+            yield rows, np.take(block, self._moving, axis=1).reshape(len(block), -1)
+
+    def squares(self) -> FloatArray:
+        """(F,) float64 squared length of each frame."""
+        return np.concatenate([np.einsum("fi,fi->f", block, block, dtype=np.float64) for _, block in self._blocks()])
+
+    def times(self, matrix: FloatArray) -> FloatArray:
+        """(F, n): the motion times a matrix (3M, n)."""
+        return np.concatenate([block @ matrix for _, block in self._blocks()])
+
+    def under(self, matrix: FloatArray) -> FloatArray:
+        """(n, 3M): the transpose of a matrix (F, n) times the motion."""
+        found = np.zeros((matrix.shape[1], self.shape[1]), np.float32)
+        for rows, block in self._blocks():
+            found += matrix[rows].T @ block
+        return found
 
 
 class _Components(NamedTuple):
@@ -102,27 +130,39 @@ class _Components(NamedTuple):
         return _Components(self.curves[:, :count], self.shapes[:count], self.rest[:, : count + 1])
 
 
-def _components(motion: FloatArray, most: float, rng: np.random.Generator) -> _Components:
+def _components(motion: _Moving, most: float, rng: np.random.Generator) -> _Components:
     """Components of a motion (F, 3M), as few as leave no frame lacking more than `most`.
 
     Truncated singular value decomposition through a random subspace, twice as large until it is large enough
     (Halko, Martinsson and Tropp 2011).
     """
-    whole = np.einsum("fi,fi->f", motion, motion, dtype=np.float64)
+    whole = motion.squares()
     rank = 16
     while True:
         rank = min(2 * rank, *motion.shape)
-        start = rng.standard_normal((motion.shape[1], min(rank + _OVERSAMPLING, *motion.shape)), np.float32)
-        basis = np.linalg.qr(motion @ start)[0]
+        directions = min(rank + _OVERSAMPLING, *motion.shape)
+        basis: FloatArray = np.linalg.qr(motion.times(rng.standard_normal((motion.shape[1], directions), np.float32)))[
+            0
+        ]
         for _ in range(2):
-            basis = np.linalg.qr(motion @ (motion.T @ basis))[0]
-        left, strength, right = np.linalg.svd(basis.T @ motion, full_matrices=False)
-        curves = basis @ left[:, :rank]
-        taken = np.cumsum((curves * strength[:rank]).astype(np.float64) ** 2, axis=1)
+            basis = np.linalg.qr(motion.times(motion.under(basis).T))[0]
+        shapes = motion.under(basis)
+        squares, turned = np.linalg.eigh(_gram(shapes))
+        turned, strength = turned[:, : -rank - 1 : -1], np.sqrt(np.maximum(squares[: -rank - 1 : -1], 0.0))
+        curves = basis @ turned.astype(np.float32)
+        taken = np.cumsum((curves * strength).astype(np.float64) ** 2, axis=1)
         rest = np.sqrt(np.maximum(whole[:, None] - np.column_stack([0 * whole, taken]), 0.0))
-        found = _Components(curves, strength[:rank, None] * right[:rank], rest)
         if rest[:, -1].max() <= most or rank == min(motion.shape):
-            return found.fewest(most)
+            return _Components(curves, turned.T.astype(np.float32) @ shapes, rest).fewest(most)
+
+
+def _gram(rows: FloatArray) -> FloatArray:
+    """(n, n) float64 products of float32 rows (n, m), without all of them in float64."""
+    gram = np.zeros((len(rows), len(rows)))
+    for first in range(0, rows.shape[1], _COLUMNS):
+        part = rows[:, first : first + _COLUMNS].astype(np.float64)
+        gram += part @ part.T
+    return gram
 
 
 def _turn_to_few_vertices(curves: FloatArray, shapes: FloatArray) -> None:

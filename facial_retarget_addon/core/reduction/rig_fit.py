@@ -8,7 +8,7 @@ import numpy as np
 
 from ..arrays import FloatArray, IntArray, Progress, no_progress
 from ..errors import RetargetError
-from .keyed import BLOCK, KeyedMotion, measured
+from .keyed import Displacements, KeyedMotion, blocks, measured
 
 _STEPS, _SETTLED = 2000, 1e-5
 _RIDGE = 1e-6
@@ -16,7 +16,7 @@ _RIDGE = 1e-6
 
 
 def fit_to_keys(
-    displacements: FloatArray,
+    displacements: Displacements,
     shapes: FloatArray,
     low: FloatArray,
     high: FloatArray,
@@ -44,7 +44,7 @@ def fit_to_keys(
     ------
     RetargetError : if shapes and frames have other vertices, a range is empty, or there is no key that moves anything.
     """
-    if displacements.ndim != 3 or shapes.ndim != 3 or displacements.shape[1:] != shapes.shape[1:]:
+    if len(displacements.shape) != 3 or shapes.ndim != 3 or displacements.shape[1:] != shapes.shape[1:]:
         raise RetargetError(
             f"frames of shape {displacements.shape} and shape keys of shape {shapes.shape} arrived, "
             "expected (F, V, 3) and (K, V, 3) of the same vertices"
@@ -58,9 +58,8 @@ def fit_to_keys(
     gram = flat @ flat.T
     size = gram.trace() / len(gram)
     wanted = np.empty((len(displacements), len(shapes)))
-    for first in range(0, len(displacements), BLOCK):
-        block = displacements[first : first + BLOCK]
-        wanted[first : first + BLOCK] = block.reshape(len(block), -1) @ flat.T
+    for rows, block in blocks(displacements):
+        wanted[rows] = block.reshape(len(block), -1) @ flat.T
     progress(0.2, "fitting the curves")
     priced = gram + _RIDGE * size * np.eye(len(gram))
     curves = _bounded(priced, wanted, smoothness * size, sparsity * size, low, high, progress)
@@ -68,7 +67,7 @@ def fit_to_keys(
     return measured(shapes.astype(np.float32), curves.astype(np.float32), displacements, _moving(shapes, displacements))
 
 
-def residual_keys(displacements: FloatArray, keyed: KeyedMotion, ranges: Sequence[slice]) -> KeyedMotion:
+def residual_keys(displacements: Displacements, keyed: KeyedMotion, ranges: Sequence[slice]) -> KeyedMotion:
     """One more shape key per range of frames, for what the others leave: its first component, with its curve.
 
     Parameters
@@ -77,7 +76,9 @@ def residual_keys(displacements: FloatArray, keyed: KeyedMotion, ranges: Sequenc
     """
     shapes, curves = [keyed.shapes], [keyed.curves]
     for rows in ranges:
-        rest = (displacements[rows] - keyed.displacements(rows)).reshape(len(keyed.curves[rows]), -1)
+        rest = np.concatenate(
+            [(moved - keyed.displacements(few)).reshape(len(moved), -1) for few, moved in blocks(displacements, rows)]
+        )
         strength, turned = np.linalg.eigh((rest @ rest.T).astype(np.float64))
         curve = turned[:, -1]
         shape = curve @ rest
@@ -90,9 +91,11 @@ def residual_keys(displacements: FloatArray, keyed: KeyedMotion, ranges: Sequenc
     return measured(every, values, displacements, _moving(every, displacements))
 
 
-def _moving(shapes: FloatArray, displacements: FloatArray) -> IntArray:
+def _moving(shapes: FloatArray, displacements: Displacements) -> IntArray:
     """(M,) vertices that a shape (K, V, 3) or a frame (F, V, 3) moves."""
-    moved = np.abs(shapes).max(axis=(0, 2)) + np.max([np.abs(frame).max(axis=1) for frame in displacements], axis=0)
+    moved = shapes.any(axis=(0, 2))
+    for _, block in blocks(displacements):
+        moved |= block.any(axis=(0, 2))
     return np.flatnonzero(moved)
 
 
