@@ -13,7 +13,7 @@ from .in_steps import FromBrowser, InSteps
 from .polls import OnTarget
 
 SAMPLES = {
-    "name": "Samples per Frame",
+    "name": "Samples",
     "min": 0,
     "max": 8,
     "description": "How often each frame is sampled; 0 for as often as the keyframes between frames ask for",

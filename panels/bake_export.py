@@ -20,15 +20,16 @@ class FACIAL_RETARGET_PT_export(Step, Panel):
         layout = self.layout
         task = context.scene.facial_retarget
         export = task.export
-        layout.operator("facial_retarget.prepare_export", icon="DUPLICATE")
-        column = layout.column(align=True)
-        column.row(align=True).prop(export, "form", expand=True)
-        button = column.operator(f"facial_retarget.export_{export.form.lower()}", icon="EXPORT")
+        layout.row(align=True).prop(export, "form", expand=True)
         if export.form == "USD":
             layout.prop(export, "points")
-            button.points = export.points
         if task.target is not None:
             draw_losses(layout, context, export.form, export.form == "USD" and export.points)
+        column = layout.column(align=True)
+        button = column.operator(f"facial_retarget.export_{export.form.lower()}", icon="EXPORT")
+        if export.form == "USD":
+            button.points = export.points
+        column.operator("facial_retarget.prepare_export", icon="DUPLICATE")
         row = layout.row(align=True)
         row.operator("facial_retarget.export_curves", icon="FCURVE")
         row.operator("facial_retarget.export_faps")

@@ -17,6 +17,7 @@ from ..background import Steps, part
 from ..bakes.times import FrameTimes
 from ..heads import head_parts
 from ..performance import check_visible, frame_kept, is_shown
+from ..scene.local_views import show_with
 from ..scene.selection import select_only, selected_alone
 from .copies import copy_head, make_plain, names_lent, remove_copies
 from .formats import check_suffix, write_selected
@@ -99,7 +100,8 @@ def export_steps(context: Context, face: Object, wish: ExportWish, tell: Callabl
 def prepare_steps(context: Context, face: Object, samples: int = 0) -> Steps[list[Object]]:
     """Copies of a head in a collection of their own, for any exporter: plain keys, each with a curve, in one action.
 
-    Those that an earlier call made of the same head are replaced. They are selected afterwards, the face's is active.
+    Those that an earlier call made of the same head are replaced. They are selected afterwards, and shown as boxes: two
+    surfaces in one place flicker.
 
     Parameters
     ----------
@@ -118,9 +120,9 @@ def prepare_steps(context: Context, face: Object, samples: int = 0) -> Steps[lis
     make_plain(things, copies, times, values, {})
     for thing, copy in zip(things, copies, strict=True):
         copy.name = copy.data.name = f"{thing.name}_export"
-        copy.facial_retarget.prepared_from = thing
+        copy.facial_retarget.prepared_from, copy.display_type = thing, "BOUNDS"
+        show_with(copy, thing)
     select_only(context.view_layer, copies)
-    context.view_layer.objects.active = copies[0]
     return copies
 
 

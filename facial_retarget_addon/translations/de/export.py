@@ -7,7 +7,7 @@ TEXTS = {
         "Kurve; Esc hält an"
     ),
     "Preparing": "Bereitet vor",
-    "Samples per Frame": "Abtastungen je Bild",
+    "Samples": "Abtastungen",
     "How often each frame is sampled; 0 for as often as the keyframes between frames ask for": (
         "Wie oft jedes Bild abgetastet wird; 0 für so oft, wie die Keyframes zwischen den Bildern verlangen"
     ),

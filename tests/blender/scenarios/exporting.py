@@ -1,5 +1,6 @@
 """A head through all four formats and back, prepared for others, and what is said before something is lost."""
 
+import re
 import sys
 from pathlib import Path
 from typing import NamedTuple
@@ -49,6 +50,7 @@ def head() -> list[bpy.types.Object]:
     group.add(list(range(len(face.data.vertices) // 2)), 0.5, "REPLACE")
     for thing in things[:2]:
         add_keys(thing)
+    push_down(things[1])
     visit(FIRST)
     return things
 
@@ -73,10 +75,19 @@ def add_keys(thing: bpy.types.Object) -> None:
             part("bridge.curves").write_curve(bag, keys.value_path(name), TIMES, values)
     blocks["1 Ünï"].value = 0.4
     blocks["muted"].mute = True
+    keys.ensure_key(thing, keys.PREVIEW_KEY)  # the live preview's, which nobody wants in a file
     driver = thing.data.shape_keys.driver_add(keys.value_path("driven")).driver
     driver.type = "SUM"
     target = driver.variables.new().targets[0]
     target.id_type, target.id, target.data_path = "KEY", thing.data.shape_keys, keys.value_path("a b")
+
+
+def push_down(thing: bpy.types.Object) -> None:
+    """Let the NLA play what an action of an object's keys played."""
+    animation = thing.data.shape_keys.animation_data
+    action, slot = animation.action, animation.action_slot
+    animation.action = None
+    animation.nla_tracks.new().strips.new("acting", FIRST, action).action_slot = slot
 
 
 def visit(time: float) -> None:
@@ -230,6 +241,8 @@ def keys_and_motion_survive_every_format() -> None:
             assert (scene.render.fps, round(scene.render.fps_base, 4)) == RATE
         if form == "usd":
             assert (scene.frame_start, scene.frame_end) == (2 * FIRST, 2 * LAST)
+            (rate,) = re.findall(r"timeCodesPerSecond = ([\d.]+)", (FOLDER / "head.usda").read_text())
+            assert abs(float(rate) - 2 * RATE[0] / RATE[1]) < 1e-4, rate
     read_back("usd", FOLDER / "points.usdc")
     for name, was in known.items():
         compare("usd", imported("usd", name, was.mesh), was.frames)
@@ -333,6 +346,11 @@ def caches_and_absolute_keys_are_exported_as_far_as_they_go() -> None:
     part("bridge.bakes.frames").write_frames(face, frames, FIRST, absolute=True)
     absolute = played([face])[face.name]
     assert np.abs(absolute[1] - absolute[0]).max() > 0.05
+    key = face.data.shape_keys.key_blocks[-1]
+    key.interpolation = "KEY_BSPLINE"
+    with refused("'frame_0009'", "KEY_BSPLINE", "KEY_LINEAR"):
+        bpy.ops.facial_retarget.export_gltf(filepath=str(FOLDER / "absolute.glb"))
+    key.interpolation = "KEY_LINEAR"
     mesh = face.data.name
     export("gltf", FOLDER / "absolute.glb")
     part("files.frames").write_frames(frames, FOLDER / "cache.pc2")

@@ -1,4 +1,7 @@
-"""Esc half-way through a bake leaves everything as it was; the next bake plays, is one undo step, and is exported."""
+"""Esc half-way through a bake leaves everything as it was; the next bake plays, is one undo step, and is exported.
+
+What an export loses stands in the panel and beside the file browser; a copy prepared for others is one undo step too.
+"""
 
 import json
 import struct
@@ -15,6 +18,7 @@ from drive import (
     press_button,
     redo,
     screenshot,
+    still,
     undo,
     wait,
     wait_until,
@@ -58,10 +62,43 @@ def scenario():
     assert len(baked(target())) == FRAMES, baked(target())
 
     file = OUT / "child.glb"
-    with override():
-        bpy.ops.facial_retarget.export_gltf(filepath=str(file))
+    yield from export(file)
     names = morph_names(file)
     assert names == baked(target()), names[:20]
+
+    before = snapshot()
+    yield from press_button("facial_retarget.prepare_export")
+    yield from wait_until(lambda: "Export" in bpy.data.collections and not working(), "the prepared copy", 30)
+    yield from wait()
+    screenshot("prepared")
+    (copy,) = bpy.data.collections["Export"].objects
+    assert copy.name == "Child_export", copy.name
+    assert baked(copy) == names, baked(copy)
+    yield from undo()
+    check_unchanged(before)
+
+
+def export(file):
+    """As an artist does: read what is lost, press the button, name the file in the browser that opens."""
+    before = snapshot()
+    bpy.context.preferences.view.filebrowser_display_type = "SCREEN"
+    yield from open_section("5. Bake and Export")
+    yield from still()
+    screenshot("export_panel")
+    yield from press_button("facial_retarget.export_gltf")
+    yield from wait_until(lambda: window().screen.areas[0].type == "FILE_BROWSER", "the file browser")
+    browser = window().screen.areas[0]
+    browser.spaces.active.params.directory = bytes(file.parent)
+    browser.spaces.active.params.filename = file.name
+    yield from still()
+    screenshot("export_browser")
+    with override(browser):
+        bpy.ops.file.execute("INVOKE_DEFAULT")
+    yield from wait_until(file.exists, "the file", 30)
+    yield from wait_until(lambda: not working(), "the operator ends", 10)
+    yield from wait()
+    screenshot("exported")
+    check_unchanged(before)
 
 
 def target() -> bpy.types.Object:
