@@ -26,8 +26,8 @@ SHOWN = {"text", "heading", "message", "confirm_text"}
 """Keywords whose value is one."""
 NAMED = {"doing", "missing", "bl_label", "bl_description"}
 """Attributes of classes that are one."""
-ARTIST = ("checks", "doubts", "example_states")
-"""Modules of the core whose sentences an artist meets at every turn."""
+CHECKS = ("checks", "doubts", "example_states")
+"""Modules of the core that only list what is wrong."""
 
 
 # Loading them imports no bpy: only the package around them does.
@@ -115,10 +115,13 @@ def advised() -> set[str]:
 
 
 def reported() -> set[str]:
-    """Sentences with {} for each value: errors, warnings, what operators tell, and what is being done."""
+    """Sentences with {} for each value: errors, warnings, what operators tell, and what is being done.
+
+    Those that tell the shapes of arrays are for programs; those of job files and file formats may stay English.
+    """
     found: set[str] = set()
     rooms = (REPOSITORY / "operators", PACKAGE / "viewport", PACKAGE / "bridge")
-    for node in trees(*rooms, *(PACKAGE / "core" / f"{name}.py" for name in ARTIST)):
+    for node in trees(*rooms, *(PACKAGE / "core" / f"{name}.py" for name in CHECKS)):
         if isinstance(node, ast.Yield) and isinstance(node.value, ast.Tuple):
             found.update(patterns(node.value.elts[-1]))
         if isinstance(node, ast.Call) and node.args:
@@ -127,8 +130,11 @@ def reported() -> set[str]:
             found.update(patterns(node.args[0]) if says else ())
             found.update(patterns(node.args[-1]) if whole == "progress" else ())
     for node in trees(PACKAGE / "core"):
-        if isinstance(node, ast.Call) and ast.unparse(node.func) == "progress" and len(node.args) == 2:
-            found.update(patterns(node.args[1]))
+        if isinstance(node, ast.Call) and node.args:
+            if ast.unparse(node.func) == "progress":
+                found.update(patterns(node.args[-1]))
+            if called(node) == "RetargetError" and ".shape" not in ast.unparse(node.args[0]):
+                found.update(patterns(node.args[0]))
     return {text for text in found if any(letter.isalpha() for letter in plain(text))}
 
 

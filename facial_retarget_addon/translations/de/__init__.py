@@ -13,12 +13,13 @@ gain : Stärke                    level : Stufe                   job : Auftrag
 Nobody is addressed: buttons, and what asks for something, stand in the infinitive.
 """
 
-from . import export, guide, operators, panels, points, properties, sentences, settings
+from . import core, export, files, guide, operators, panels, points, properties, sentences, settings
 
 PARTS = (guide, panels, operators, export, properties, settings, points)
 
 TEXTS: dict[str, str] = {english: german for part in PARTS for english, german in part.TEXTS.items()}
 """English text -> German text, with the same {fields}."""
 
-SENTENCES, PHRASES = sentences.SENTENCES | export.SENTENCES, sentences.PHRASES | points.TEXTS
+SENTENCES = sentences.SENTENCES | export.SENTENCES | core.SENTENCES | files.SENTENCES
+PHRASES = sentences.PHRASES | core.PHRASES | files.PHRASES | points.TEXTS
 """English pattern -> German pattern, as `translations.sentences` wants them."""

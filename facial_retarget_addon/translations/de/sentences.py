@@ -1,7 +1,7 @@
 """Sentences of reports: what was done, what is wrong. What {} stands for says `translations.sentences`.
 
-What only programs get to read, such as the shapes of arrays, and what is wrong inside files stays English, as on the
-command line.
+Those of the core and of files stand beside it. What only programs get to read, such as the shapes of arrays, stays
+English, as on the command line.
 """
 
 SENTENCES = {
@@ -545,19 +545,6 @@ SENTENCES = {
         "links und rechts spiegeln sich in der Masche nicht, und keine Punkte sind Paare von links und rechts: solche "
         "Punkte setzen, oder Polygone nehmen, die sich spiegeln"
     ),
-    # Files.
-    "{} cannot be read: {}": "{} lässt sich nicht lesen: {:said}",
-    "{} cannot be written: {}": "{} lässt sich nicht schreiben: {:said}",
-    "{} cannot be written: there is no folder {}": "{} lässt sich nicht schreiben: den Ordner {} gibt es nicht",
-    "{} cannot be written: the folder {} may not be changed": (
-        "{} lässt sich nicht schreiben: der Ordner {} darf nicht geändert werden"
-    ),
-    "{} cannot be written: Blender did not get to its end; the disk may be full": (
-        "{} lässt sich nicht schreiben: Blender kam nicht bis ans Ende; vielleicht ist die Platte voll"
-    ),
-    "folder {} holds {}; expected a new folder, or one that holds {} files only, since it is replaced": (
-        "Ordner {} enthält {}; er wird ersetzt: einen neuen nehmen, oder einen, in dem nur {}-Dateien sind"
-    ),
 }
 """English pattern -> German pattern."""
 
@@ -611,7 +598,6 @@ PHRASES = {
     "normal maps": "die Normalmaps",
     "Bake and Export": "Backen und Exportieren",
     "Normal Maps": "Normalmaps",
-    "file without a suffix": "eine Datei ohne Endung",
     " onto {} heads": " auf {} Köpfe",
     "exactly": "genau",
     "through the fit of the surfaces": "über die Anpassung der Oberflächen",
@@ -635,6 +621,5 @@ PHRASES = {
     "expected at most {}": "höchstens {} gehen",
     "they are left to their neighbours": "sie bleiben ihren Nachbarn überlassen",
     " or a base mesh of your own": ", oder eine eigene Basismasche",
-    "the disk is full": "die Platte ist voll",
 }
 """The same for what stands in such a sentence as a value."""
