@@ -187,7 +187,10 @@ def _stray_points(side: str, face: Face) -> list[str]:
     names = [face.points.names[row] for row in np.flatnonzero(components != most)]
     stray = [name for name in names if name not in OWN_PARTS]
     if stray:
-        found.append(f"{side}: points {_listed(stray)} lie on another part of the mesh than the others; move them")
+        found.append(
+            f"{side}: points {_listed(stray)} lie on another part of the mesh than the others, such as lashes; move "
+            "them onto the skin"
+        )
     same = _same_places(face.points, len(face.mesh.vertices))
     if same:
         pairs = [f"{a} and {b}" for a, b in same]

@@ -15,6 +15,8 @@ from ..bridge.points.shown_surface import ShownSurface, view_of
 from ..bridge.scene.redraw import redraw_views
 from ..core.arrays import FloatArray
 from ..core.errors import RetargetError
+from ..core.mpeg4.regions import OWN_PARTS
+from ..core.point_sets import POINT_INFOS
 from ..core.sliding import Place, Slide
 from .hover import point_under
 from .state import needed_face
@@ -38,7 +40,10 @@ class Pointed:
     thing : the face of the point under the mouse, or else the active one; it becomes the active object.
     name : the point under the mouse, placed or proposed; "" for none.
     mouse : (2,) in pixels.
+    on_skin : whether lashes and shells close before the skin are looked through.
     """
+
+    on_skin = False
 
     def __init__(self, context: Context, event: Event) -> None:
         """Look.
@@ -65,7 +70,7 @@ class Pointed:
 
     def seen(self, pixel: FloatArray) -> Place | None:
         """What of the face is seen at a pixel (2,)."""
-        return self._surface.under(self.view, pixel)
+        return self._surface.under(self.view, pixel, self.on_skin)
 
     def place(self) -> Place | None:
         """The place of the point under the mouse, or else what is seen of the face there."""
@@ -89,6 +94,7 @@ class PointDrag:
         self._slide: Slide | None = None
         self._mirror_time = 0.0
         self._name = self._at.name or self._thing.facial_retarget.turn
+        self._at.on_skin = self._name in POINT_INFOS and self._name not in OWN_PARTS
         place = self._at.place()
         if place is None:
             raise RetargetError(_beside(context, self._at))

@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 from bpy.types import Depsgraph, Object, Region, RegionView3D
 
-from ...core.arrays import FloatArray
+from ...core.arrays import FloatArray, IntArray
 from ...core.closest_point import SurfaceFinder
 from ...core.errors import RetargetError
 from ...core.mesh import TriMesh
@@ -23,6 +23,11 @@ from ...core.view_rays import View
 from ..meshes import neutral_mesh
 from ..raycast import available_caster
 from .point_places import shown_vertices
+
+COVER, NEAR = 0.01, 0.05
+"""Lashes and shells that a point of the skin is placed through: their area at most, of the skin's, and how far they lie
+before it at most, of the mesh's size. An eyeball has more area: whoever clicks there shall not hit its socket.
+"""
 
 
 class ShownSurface:
@@ -47,11 +52,40 @@ class ShownSurface:
     def _caster(self) -> RayCaster:
         return available_caster()(self.mesh)
 
-    def under(self, view: View, pixel: FloatArray) -> Place | None:
-        """The place that is seen at a pixel (2,) of a view, other objects left aside; None beside the surface."""
-        origin, direction = view.ray(pixel)
-        hit = self._caster.nearest(origin[None], direction[None])
-        return self._place(int(hit.face[0]), hit.weights[0]) if hit.found[0] else None
+    @cached_property
+    def _pieces(self) -> IntArray:
+        """(F,) the component that each triangle belongs to."""
+        return self.mesh.components[self.mesh.faces[:, 0]]
+
+    @cached_property
+    def _areas(self) -> FloatArray:
+        """Of each component; that of the skin is the largest."""
+        return np.bincount(self._pieces, self.mesh.face_areas)
+
+    @cached_property
+    def _skin(self) -> IntArray:
+        """(S,) the triangles of the skin."""
+        return np.flatnonzero(self._pieces == self._areas.argmax())
+
+    @cached_property
+    def _skin_caster(self) -> RayCaster:
+        return available_caster()(TriMesh(self.mesh.vertices, self.mesh.faces[self._skin]))
+
+    def under(self, view: View, pixel: FloatArray, on_skin: bool = False) -> Place | None:
+        """The place that is seen at a pixel (2,) of a view, other objects left aside; None beside the surface.
+
+        on_skin : go through what covers the skin, such as lashes and the shells of eyes.
+        """
+        origin, direction = (one[None] for one in view.ray(pixel))
+        hit = self._caster.nearest(origin, direction)
+        if not hit.found[0]:
+            return None
+        face = int(hit.face[0])
+        if on_skin and self._areas[self._pieces[face]] < COVER * self._areas.max():
+            behind = self._skin_caster.nearest(origin, direction, hit.distance + NEAR * self.mesh.size)
+            if behind.found[0]:
+                return self._place(int(self._skin[behind.face[0]]), behind.weights[0])
+        return self._place(face, hit.weights[0])
 
     def closest(self, position: FloatArray) -> Place:
         """The place closest to a position (3,) in world space."""

@@ -527,8 +527,9 @@ SENTENCES = {
     "{}: the faces look inwards, expected normals that point out of the head": (
         "{:said}: die Flächen sehen nach innen; ihre Normalen müssen aus dem Kopf zeigen"
     ),
-    "{}: points {} lie on another part of the mesh than the others; move them": (
-        "{:said}: Punkte {} liegen auf einem anderen Teil der Masche als die übrigen; sie verschieben"
+    "{}: points {} lie on another part of the mesh than the others, such as lashes; move them onto the skin": (
+        "{:said}: Punkte {} liegen auf einem anderen Teil der Masche als die übrigen, etwa auf Wimpern; sie auf die "
+        "Haut verschieben"
     ),
     "{}: points {} lie in the same place; move or remove one of each": (
         "{:said}: Punkte {} liegen an derselben Stelle; je einen verschieben oder entfernen"

@@ -147,3 +147,27 @@ assert made is not None
 preparation.prepare_predictions(fresh)
 assert not preparation.is_preparing(fresh)
 assert prediction.predictor_of(fresh) is made
+
+# A point of the skin goes through lashes close before it; through nothing that is large or far from it, nor else.
+surface, view, meshes = part("bridge.points.shown_surface"), part("core.view_rays").View, part("bridge.meshes")
+skin, plates = grid("skin", 21), []
+for x, z, half in ((-0.6, 0.9, 0.05), (0.0, 1.05, 0.3), (0.6, 2.0, 0.05)):  # lashes, an eyeball, a light far before it
+    plates += [(x - half, -half, z), (x + half, -half, z), (x, half, z)]
+covered = meshes.new_object(
+    "covered",
+    np.concatenate([meshes.read_positions(skin.data), plates]),
+    np.array([4] * 400 + [3] * 3),
+    np.concatenate([[loop.vertex_index for loop in skin.data.loops], 441 + np.arange(9)]),
+)
+bpy.context.view_layer.update()
+above = view(np.array([100.0, 100.0]), np.array(Matrix.Translation((0, 0, -5))), np.diag([1.0, 1.0, -0.1, 1.0]))
+shown = surface.ShownSurface(covered, bpy.context.evaluated_depsgraph_get())
+for x, on_skin, height in (
+    (-0.6, False, 0.9),
+    (-0.6, True, 0.86),
+    (0.0, True, 1.05),
+    (0.6, True, 2.0),
+    (0.3, True, 0.96),
+):
+    (pixel,) = above.pixels(np.array([[x, 0.0, 0.0]]))
+    np.testing.assert_allclose(shown.under(above, pixel, on_skin).position, (x, 0, height), atol=0.01)
