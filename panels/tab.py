@@ -5,7 +5,6 @@ from bpy.types import Context, UILayout
 
 from ..facial_retarget_addon import guide
 from ..facial_retarget_addon.manual import STEPS
-from ..facial_retarget_addon.translations import filled as filled
 
 ICONS = {"DONE": "CHECKMARK", "NOW": "RADIOBUT_ON", "OPEN": "RADIOBUT_OFF"}
 """How far a step is -> the icon in its header."""
