@@ -40,6 +40,7 @@ from . import (
     skip_point,
     start_placing,
     stop,
+    wrinkle_kit,
 )
 
 CLASSES = (
@@ -77,6 +78,8 @@ CLASSES = (
     make_examples.FACIAL_RETARGET_OT_check_examples,
     retarget.FACIAL_RETARGET_OT_retarget,
     normal_maps.FACIAL_RETARGET_OT_make_normal_maps,
+    wrinkle_kit.FACIAL_RETARGET_OT_make_wrinkle_kit,
+    wrinkle_kit.FACIAL_RETARGET_OT_remove_wrinkle_kit,
     show_levels.FACIAL_RETARGET_OT_show_levels,
     select_trouble.FACIAL_RETARGET_OT_select_trouble,
     preview.FACIAL_RETARGET_OT_start_preview,

@@ -18,6 +18,7 @@ from . import (
     overlay,
     preview,
     report,
+    wrinkle_kit,
 )
 
 CLASSES = (
@@ -41,6 +42,7 @@ CLASSES = (
     method.FACIAL_RETARGET_PT_settings,
     bake_export.FACIAL_RETARGET_PT_export,
     normal_maps.FACIAL_RETARGET_PT_normal_maps,
+    wrinkle_kit.FACIAL_RETARGET_PT_wrinkle_kit,
     bake_export.FACIAL_RETARGET_PT_job,
     report.FACIAL_RETARGET_UL_findings,
     report.FACIAL_RETARGET_PT_report,

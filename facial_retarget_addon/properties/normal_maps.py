@@ -1,11 +1,15 @@
-"""How normal maps are made."""
+"""How normal maps and wrinkle kits are made."""
 
-from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
-from bpy.types import PropertyGroup
+from math import radians
+
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
+from bpy.types import Object, PropertyGroup
+
+from .choices import is_mesh
 
 
-class FACIAL_RETARGET_PG_normal_maps(PropertyGroup):
-    """How normal maps of the performance are made."""
+class Maps:
+    """What maps are for, and how they are written."""
 
     light: EnumProperty(
         name="For",
@@ -47,4 +51,39 @@ class FACIAL_RETARGET_PG_normal_maps(PropertyGroup):
     )
 
 
-CLASSES = (FACIAL_RETARGET_PG_normal_maps,)
+class FACIAL_RETARGET_PG_normal_maps(Maps, PropertyGroup):
+    """How normal maps of the performance are made."""
+
+
+class FACIAL_RETARGET_PG_wrinkle_kit(Maps, PropertyGroup):
+    """How a wrinkle kit of the target's shape keys is made."""
+
+    detail: EnumProperty(
+        name="Wrinkles of",
+        description="Where the wrinkles come from",
+        items=[
+            (
+                "RETARGETED",
+                "Retargeting",
+                "The finest level of the shapes that Cloning gives the target, by the method of step 4",
+            ),
+            ("OBJECT", "High-Poly Object", "A fine mesh in the target's place that has its shape keys, by their names"),
+        ],
+    )
+    fine: PointerProperty(
+        name="High-Poly",
+        type=Object,
+        poll=is_mesh,
+        description="The fine mesh: it lies where the target does, and has shape keys of the same names",
+    )
+    least: FloatProperty(
+        name="Least",
+        subtype="ANGLE",
+        default=radians(3.0),
+        min=0.0,
+        max=radians(90.0),
+        description="Shape keys that turn no normal by this much get no map",
+    )
+
+
+CLASSES = (FACIAL_RETARGET_PG_normal_maps, FACIAL_RETARGET_PG_wrinkle_kit)

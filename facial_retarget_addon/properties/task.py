@@ -11,7 +11,7 @@ from .cloning import FACIAL_RETARGET_PG_cloning
 from .examples import FACIAL_RETARGET_PG_example, FACIAL_RETARGET_PG_sculpting
 from .export import FACIAL_RETARGET_PG_export
 from .methods import METHOD_ITEMS, SETTINGS_GROUPS, FACIAL_RETARGET_PG_mask, FACIAL_RETARGET_PG_regions
-from .normal_maps import FACIAL_RETARGET_PG_normal_maps
+from .normal_maps import FACIAL_RETARGET_PG_normal_maps, FACIAL_RETARGET_PG_wrinkle_kit
 from .overlay import FACIAL_RETARGET_PG_overlay
 
 
@@ -55,6 +55,7 @@ class FACIAL_RETARGET_PG_task(PropertyGroup):
     bake: PointerProperty(type=FACIAL_RETARGET_PG_bake)
     export: PointerProperty(type=FACIAL_RETARGET_PG_export)
     normal_maps: PointerProperty(type=FACIAL_RETARGET_PG_normal_maps)
+    wrinkle_kit: PointerProperty(type=FACIAL_RETARGET_PG_wrinkle_kit)
     overlay: PointerProperty(type=FACIAL_RETARGET_PG_overlay)
     method: EnumProperty(
         name="Method",

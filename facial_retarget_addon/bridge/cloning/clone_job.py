@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
@@ -18,6 +19,7 @@ from ...files.whole import Aside, appear_whole, written_aside
 from ..background import Steps, in_thread, part
 from ..beside import Beside
 from ..heads import Head, read_head
+from ..maps.map_output import job_kit
 from ..settings import read_method_settings
 from .clone_wishes import Origin, origins, preparation, wanted_names
 from .cloning import target_faces
@@ -46,6 +48,7 @@ def save_clone_job_steps(context: Context, path: Path) -> Steps[None]:
     source = yield from part(_source(context.scene.facial_retarget), 0.0, 0.4)
     names = _actor_names(source) if isinstance(source, BuiltInActor) else list(source.shapes.names)
     how = preparation(cloning)
+    kit = job_kit(context.scene.facial_retarget, method)
     made = {origin: name for name, origin in origins(wanted_names(names, cloning), how).items()}
     targets = [_Shaped(head, _corrections(head, made)) for head in heads]
 
@@ -57,8 +60,9 @@ def save_clone_job_steps(context: Context, path: Path) -> Steps[None]:
             wanted = []
             for number, target in enumerate(targets, start=1):
                 progress(number / (len(targets) + 1), f"Writing head {number} of {len(targets)}")
-                wanted.append(files.target(target, f"target_{number}"))
-            write_clone_job(CloneJob(given, tuple(wanted), how, method, settings, path), aside.place(path))
+                wanted.append(files.target(target, f"target_{number}", kit is not None))
+            job = CloneJob(given, tuple(wanted), how, method, settings, path)
+            write_clone_job(job if kit is None else replace(job, wrinkle_kit=kit), aside.place(path))
             progress(1.0, "Writing")
         return aside
 
@@ -77,8 +81,8 @@ class _HeadFiles(Beside):
         """Write a head that gives its shapes."""
         return SourceFiles(self.head("source", source.head), self._shapes("source_shapes.json", source))
 
-    def target(self, target: _Shaped, role: str) -> TargetFiles:
-        """Write a head that gets shapes, and its corrections."""
+    def target(self, target: _Shaped, role: str, wrinkles: bool) -> TargetFiles:
+        """Write a head that gets shapes, maybe with a wrinkle kit, and its corrections."""
         corrected = self._shapes(f"{role}_corrected.json", target) if len(target.shapes) else None
         return TargetFiles(
             self.head(role, target.head),
@@ -86,6 +90,7 @@ class _HeadFiles(Beside):
             corrected=corrected,
             report=self.path(f"{role}_report.json"),
             sheet=self.path(f"{role}_sheet.png"),
+            wrinkles=self.path(f"{role}_wrinkles") if wrinkles else None,
         )
 
     def _shapes(self, name: str, shaped: _Shaped) -> Path:

@@ -16,7 +16,7 @@ from ...core.methods.settings import Settings
 from ...core.problem import Problem
 from ...core.shapes.clone import ClonedShapes, clone_shapes
 from ...core.shapes.combinations import find_correctives
-from ...core.shapes.prepare import prepare_shapes
+from ...core.shapes.prepare import PreparedShapes, prepare_shapes
 from ...core.shapes.sides import left_share
 from ..background import Steps, in_thread, part
 from ..heads import Head, head_parts, read_head
@@ -103,18 +103,29 @@ def cloner(
 
     Correctives are cloned together with the shapes that they need, whether these are wanted or not.
     """
-    needed = {need for one in find_correctives(donor.names) if one.name in names for need in one.needs}
-    shapes = donor.shapes([name for name in donor.names if name in names or name in needed], head.groups)
-    how = replace(preparation(cloning), keep=tuple(escape(name) for name in names), drop=())
+    prepare = preparer(donor, head, names, cloning)
+    made_of = origins(names, preparation(cloning))
     problem = Problem(donor.face, head.face, make_caster=available_caster())
 
     def clone(progress: Progress) -> Clones:
-        share = left_share(donor.face.mesh, donor.face.points, how.feather) if how.split else None
-        ready = prepare_shapes(shapes, how, share)
+        ready = prepare()
         cloned = clone_shapes(method, problem, settings, ready.shapes, ready.correctives, progress).only(ready.wanted)
-        return Clones(head, cloned.shapes, origins(names, how), row_of(cloned), cloned.spots, cloned.report)
+        return Clones(head, cloned.shapes, made_of, row_of(cloned), cloned.spots, cloned.report)
 
     return clone
+
+
+def preparer(donor: Donor, head: Head, names: Sequence[str], cloning: PropertyGroup) -> Callable[[], PreparedShapes]:
+    """What makes some of a donor's shapes ready for a head, on a thread: all Blender data is read here."""
+    needed = {need for one in find_correctives(donor.names) if one.name in names for need in one.needs}
+    shapes = donor.shapes([name for name in donor.names if name in names or name in needed], head.groups)
+    how = replace(preparation(cloning), keep=tuple(escape(name) for name in names), drop=())
+
+    def prepare() -> PreparedShapes:
+        share = left_share(donor.face.mesh, donor.face.points, how.feather) if how.split else None
+        return prepare_shapes(shapes, how, share)
+
+    return prepare
 
 
 def row_of(cloned: ClonedShapes) -> dict[str, dict[str, Any]]:

@@ -30,14 +30,11 @@ def wire(thing: Object, sequence: MapSequence) -> list[str]:
 
     A Principled shader whose normal comes from nodes of the artist's own keeps them: a warning names its material.
     """
-    if not any(slot.material for slot in thing.material_slots):
-        thing.data.materials.append(bpy.data.materials.new(thing.name))
     warnings = []
     uv_name = thing.data.uv_layers.active.name
-    for material in {slot.material for slot in thing.material_slots if slot.material}:
-        tree = _tree(material)
-        for node in [node for node in tree.nodes if node.label == LABEL]:
-            tree.nodes.remove(node)
+    for material in materials(thing):
+        tree = node_tree(material)
+        remove_maps(tree)
         shaders = [node for node in tree.nodes if node.type == "BSDF_PRINCIPLED"]
         free = [node for node in shaders if not node.inputs["Normal"].is_linked]
         if len(free) < len(shaders) or not shaders:
@@ -50,7 +47,21 @@ def wire(thing: Object, sequence: MapSequence) -> list[str]:
     return warnings
 
 
-def _tree(material: Material) -> NodeTree:
+def materials(thing: Object) -> list[Material]:
+    """An object's materials, each once; it gets one if it has none."""
+    if not any(slot.material for slot in thing.material_slots):
+        thing.data.materials.append(bpy.data.materials.new(thing.name))
+    return list(dict.fromkeys(slot.material for slot in thing.material_slots if slot.material))
+
+
+def remove_maps(tree: NodeTree) -> None:
+    """Remove the nodes of earlier maps."""
+    for node in [node for node in tree.nodes if node.label == LABEL]:
+        tree.nodes.remove(node)
+
+
+def node_tree(material: Material) -> NodeTree:
+    """A material's nodes."""
     # From 5.0 on every material has its nodes; asking for them there warns.
     if bpy.app.version < (5, 0) and not material.use_nodes:
         material.use_nodes = True

@@ -1,12 +1,13 @@
-"""The panel's wish for normal maps, as the core, a job and a folder know it."""
+"""The panel's wish for normal maps and wrinkle kits, as the core, a job and a folder know it."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 from bpy.types import PropertyGroup
 
-from ...core.methods.settings import LEVELED, MapSettings
+from ...core.methods.settings import LEVELED, MapSettings, WrinkleSettings
 from ...files.job import MapOutput
 from ..paths import chosen_path
 
@@ -25,6 +26,22 @@ def map_folder(wish: PropertyGroup) -> Path:
     RetargetError : as `chosen_path`.
     """
     return chosen_path(wish.folder, "folder", "normal maps", "Normal Maps")
+
+
+def wrinkle_settings(wish: PropertyGroup) -> WrinkleSettings:
+    """How the panel wants a wrinkle kit."""
+    maps = map_settings(wish)
+    level = maps.level if wish.detail == "RETARGETED" else 0
+    least = round(float(np.degrees(wish.least)), 3)  # Blender keeps float32
+    return WrinkleSettings(level, maps.pixels, maps.margin, maps.depth, maps.convention, least)
+
+
+def job_kit(task: PropertyGroup, method: str) -> WrinkleSettings | None:
+    """What a clone job says of wrinkle kits; None where the panel names no folder, or the method cannot make them."""
+    wish = task.wrinkle_kit
+    if not wish.folder or wish.detail == "OBJECT" or method not in LEVELED:
+        return None
+    return wrinkle_settings(wish)
 
 
 def map_output(task: PropertyGroup) -> MapOutput | None:

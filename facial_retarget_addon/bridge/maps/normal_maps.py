@@ -14,6 +14,7 @@ from ...core.errors import RetargetError
 from ...core.level_retargeter import LevelRetargeter
 from ...core.methods.settings import LEVELED
 from ...core.normal_maps.frame_maps import FrameMaps
+from ...core.normal_maps.surface import TexturedSurface
 from ...core.retarget import checked_fit
 from ...files.images import suffix_of
 from ...files.normal_map_files import textured, write_frame_maps
@@ -89,22 +90,21 @@ def normal_map_steps(context: Context) -> Steps[MadeMaps]:
     appear_whole(computed.aside)
     thing = task.target
     if made.level:
-        thing = _level_object(task.target, made.level, computed, frames.start)
+        name = f"{task.target.name} level {made.level}"
+        thing = level_object(name, task.target, computed.maps.surface)
+        write_frames(thing, computed.light, frames.start)
     sequence = MapSequence(folder, made, tuple(computed.maps.maps), frames)
     warnings = wire(thing, sequence) if wish.wire else []
     return MadeMaps(folder, thing, warnings)
 
 
-def _level_object(target: Object, level: int, computed: _Computed, first: int) -> Object:
-    """A level of the target's normal mesh as an object, with its frames as shape keys; an earlier one is replaced."""
-    name = f"{target.name} level {level}"
+def level_object(name: str, target: Object, surface: TexturedSurface) -> Object:
+    """A level of the target's normal mesh as an object where the target is; an earlier one of that name is replaced."""
     before = bpy.data.objects.get(name)
     if before is not None and before.type == "MESH":
         bpy.data.meshes.remove(before.data)
-    surface = computed.maps.surface
     made = new_object(name, from_face_space(target, surface.mesh.vertices), surface.counts, surface.corners)
     made.data.shade_smooth()
     made.data.uv_layers.new(name=UV_NAME).uv.foreach_set("vector", np.ravel(surface.uvs).astype(np.float32))
     made.matrix_world = target.matrix_world
-    write_frames(made, computed.light, first)
     return made

@@ -11,6 +11,7 @@ from ..level_retargeter import LevelRetargeter
 from ..mesh import TriMesh
 from ..methods.settings import MapSettings
 from ..problem import Problem
+from ..raycast import CasterFactory, EmbreeCaster
 from .chart import disc_chart
 from .key_poses import Pose
 from .normal_map import NormalMap, fit_normal_map
@@ -59,13 +60,7 @@ class FrameMaps:
         self._own = surface is not None
         self.surface = surface or _level_surface(fine, retargeter.level_faces(settings.level))
         strength = _fade(fine) if self._own else None
-        self.maps: dict[Tile, NormalMap] = {}
-        found = tiles(self.surface.triangle_uvs)
-        for number, tile in enumerate(found):
-            progress(number / len(found), "placing the pixels")
-            self.maps[tile] = fit_normal_map(
-                self.surface, fine, settings.pixels, tile, settings.margin, strength, problem.make_caster
-            )
+        self.maps = light_maps(self.surface, fine, settings, strength, problem.make_caster, progress)
 
     def frame(self, source: FloatArray) -> tuple[FloatArray, dict[Tile, FloatArray]]:
         """The light mesh (V, 3) of a source frame (Vs, 3), and each tile's unit normals (size, size, 3).
@@ -81,6 +76,23 @@ class FrameMaps:
         fine = self._rest + self._fine_strength * (fine - self._rest)
         light = self._gained.scale(self._retargeter.frames(source[None]))[0] if self._own else fine
         return Pose(light[: len(self.surface.mesh.vertices)], fine)
+
+
+def light_maps(
+    surface: TexturedSurface,
+    fine: TriMesh,
+    settings: MapSettings,
+    strength: FloatArray | None = None,
+    make_caster: CasterFactory = EmbreeCaster,
+    progress: Progress = no_progress,
+) -> dict[Tile, NormalMap]:
+    """The map of each UDIM tile that a light mesh reaches; parameters and errors as `fit_normal_map`."""
+    found = tiles(surface.triangle_uvs)
+    maps: dict[Tile, NormalMap] = {}
+    for number, tile in enumerate(found):
+        progress(number / len(found), "placing the pixels")
+        maps[tile] = fit_normal_map(surface, fine, settings.pixels, tile, settings.margin, strength, make_caster)
+    return maps
 
 
 def _level_surface(fine: TriMesh, faces: IntArray) -> TexturedSurface:

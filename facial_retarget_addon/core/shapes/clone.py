@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -99,10 +99,7 @@ def clone_shapes(
     result = retarget(method, problem, settings, frames, progress_part(progress, 0.0, 0.95))
     progress(0.95, "comparing both heads")
     found = ShapeSet(shapes.names, result.frames - target.vertices.astype(np.float32))
-    here, there = Features(problem.source), Features(problem.target)
-    acts = {name: here.shares(move) for name, move in zip(shapes.names, shapes.displacements, strict=True)}
-    absent = {name: lacking for name, shares in acts.items() if (lacking := missing(shares, there.has))}
-    needing = {one.name: need for one in whole for need in one.needs if need in absent and one.name not in absent}
+    acts, absent, needing = _counterparts(problem, shapes, whole)
     still = [*absent, *needing]
     alone = _stilled(taken_apart(_stilled(found, still), whole), still)
     rows = _rows(problem, shapes, alone, whole, result.per_frame)
@@ -124,6 +121,30 @@ def clone_shapes(
     progress(1.0, "done")
     spots = dict(zip(shapes.names, result.spots, strict=True))
     return ClonedShapes(alone, rows, report, lost, spots, result.leveled)
+
+
+def still_shapes(problem: Problem, shapes: ShapeSet, correctives: Sequence[Corrective]) -> list[str]:
+    """Names of the shapes that leave the target still: those, and their correctives, that act on what it lacks."""
+    _, absent, needing = _counterparts(problem, shapes, complete(correctives, shapes.names))
+    return [*absent, *needing]
+
+
+class _Counterparts(NamedTuple):
+    """By name: the share of each feature in what a shape does, the features that the target lacks for it, the shape
+    without a counterpart that a corrective needs.
+    """
+
+    acts: dict[str, dict[str, float]]
+    absent: dict[str, list[str]]
+    needing: dict[str, str]
+
+
+def _counterparts(problem: Problem, shapes: ShapeSet, whole: Sequence[Corrective]) -> _Counterparts:
+    here, there = Features(problem.source), Features(problem.target)
+    acts = {name: here.shares(move) for name, move in zip(shapes.names, shapes.displacements, strict=True)}
+    absent = {name: lacking for name, shares in acts.items() if (lacking := missing(shares, there.has))}
+    needing = {one.name: need for one in whole for need in one.needs if need in absent and one.name not in absent}
+    return _Counterparts(acts, absent, needing)
 
 
 def _stilled(shapes: ShapeSet, names: Sequence[str]) -> ShapeSet:
