@@ -18,12 +18,14 @@ STEPS = {
 """Step of the work -> page and place."""
 
 EXPORTING = "export.html#what-each-format-keeps"
+WRINKLES = "wrinkle_kit.html#in-blender"
 CLONING, MPEG4 = "blender.html#clone-shape-keys", "blender.html#mpeg-4-face"
 
 _OPERATORS = {
     STEPS["POINTS"]: ("*point*", "*proposal*", "accept*", "start_placing", "*part", "*parts", "show_base"),
     STEPS["EXAMPLES"]: ("*example*", "rough_out*", "stop_sculpting"),
     STEPS["RETARGET"]: ("retarget", "*levels", "*preview*", "compare", "show_method", "*mask*", "stop"),
+    WRINKLES: ("*wrinkle*",),
     STEPS["EXPORT"]: ("load_job", "save_job", "*maps*", "export_curves", "export_faps"),
     EXPORTING: ("prepare_export", "export_gltf", "export_fbx", "export_usd", "export_alembic"),
     CLONING: ("*clone*", "add_actor", "resolve*", "find_corrected"),
@@ -37,6 +39,7 @@ _GROUPS = {
     STEPS["EXAMPLES"]: ("example*", "sculpting"),
     STEPS["RETARGET"]: ("hierarchical", "feature_points", "motion_cloning", "wavelet", "regions", "mask"),
     STEPS["EXPORT"]: ("normal_maps",),
+    WRINKLES: ("wrinkle_kit",),
     EXPORTING: ("export",),
     CLONING: ("cloning", "cloned_key"),
     STEPS["FACES"]: ("*",),

@@ -5,6 +5,7 @@ from typing import Any
 from bpy.types import Context, Operator
 
 from ..facial_retarget_addon.core.methods.settings import LEVELED
+from ..facial_retarget_addon.translations import told
 from .errors import tells_user
 from .in_steps import InSteps
 from .polls import OnFace, in_mode
@@ -21,11 +22,21 @@ class FACIAL_RETARGET_OT_make_wrinkle_kit(InSteps, Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         """The target, what its wrinkles come from, and a folder must be chosen, in Object Mode."""
-        missing = _missing(context.scene.facial_retarget)
-        if missing:
-            cls.poll_message_set(missing)
-            return False
-        return in_mode(cls, context)
+        task = context.scene.facial_retarget
+        kit, sculpted = task.wrinkle_kit, task.wrinkle_kit.detail == "OBJECT"
+        if task.target is None:
+            cls.poll_message_set("Choose a target under Faces")
+        elif sculpted and kit.fine is None:
+            cls.poll_message_set("Choose the high-poly object")
+        elif not sculpted and task.method not in LEVELED:
+            cls.poll_message_set(told(f"This method has no levels; {' and '.join(LEVELED)} have"))
+        elif not sculpted and task.source is None and task.cloning.donor == "SOURCE":
+            cls.poll_message_set("Choose a source under Faces, or clone from the built-in actor")
+        elif not kit.folder:
+            cls.poll_message_set("Choose a folder for the wrinkle kit")
+        else:
+            return in_mode(cls, context)
+        return False
 
     def steps(self, context: Context) -> Any:
         """Read, compute, write."""
@@ -36,23 +47,9 @@ class FACIAL_RETARGET_OT_make_wrinkle_kit(InSteps, Operator):
     def finish(self, result: Any) -> None:
         """Say where it is, which keys have no map, and which materials do not show it."""
         for warning in result.warnings:
-            self.report({"WARNING"}, warning)
-        kit = f"{result.keys} keys of {result.thing.name!r} in {result.pictures} pictures"
-        self.report({"INFO"}, f"Wrinkles of {kit}, in {result.folder}")
-
-
-def _missing(task: Any) -> str:
-    """What must be chosen first; "" for nothing."""
-    if task.target is None:
-        return "Choose a target under Faces"
-    if task.wrinkle_kit.detail == "OBJECT":
-        if task.wrinkle_kit.fine is None:
-            return "Choose the high-poly object"
-    elif task.method not in LEVELED:
-        return f"This method has no levels; {' and '.join(LEVELED)} have"
-    elif task.source is None and task.cloning.donor == "SOURCE":
-        return "Choose a source under Faces, or clone from the built-in actor"
-    return "" if task.wrinkle_kit.folder else "Choose a folder for the wrinkle kit"
+            self.report({"WARNING"}, told(warning))
+        keys, pictures, name = result.keys, result.pictures, result.thing.name
+        self.report({"INFO"}, told(f"Wrinkles of {keys} keys of {name!r} in {pictures} pictures in {result.folder}"))
 
 
 class FACIAL_RETARGET_OT_remove_wrinkle_kit(OnFace, Operator):
@@ -69,5 +66,5 @@ class FACIAL_RETARGET_OT_remove_wrinkle_kit(OnFace, Operator):
 
         count = remove_kit(context.active_object)
         name = context.active_object.name
-        self.report({"INFO"}, f"{count} materials of {name!r} had a wrinkle kit")
+        self.report({"INFO"}, told(f"Wrinkle kit taken out of {count} materials of {name!r}"))
         return {"FINISHED"}

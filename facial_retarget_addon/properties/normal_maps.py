@@ -64,7 +64,7 @@ class FACIAL_RETARGET_PG_wrinkle_kit(Maps, PropertyGroup):
         items=[
             (
                 "RETARGETED",
-                "Retargeting",
+                "Retargeted Keys",
                 "The finest level of the shapes that Cloning gives the target, by the method of step 4",
             ),
             ("OBJECT", "High-Poly Object", "A fine mesh in the target's place that has its shape keys, by their names"),

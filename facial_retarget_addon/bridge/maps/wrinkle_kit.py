@@ -141,7 +141,8 @@ def _said(kit: WrinkleKit, lacking: Sequence[str]) -> list[str]:
 
 def _some(names: Sequence[str]) -> str:
     """The first few of many names."""
-    return ", ".join(names[:5]) + (f" and {len(names) - 5} more" if len(names) > 5 else "")
+    first = ", ".join(names[:5])
+    return first if len(names) <= 5 else f"{first} and {len(names) - 5} more"
 
 
 def _retargeted(

@@ -90,11 +90,14 @@ class NormalMap:
         return image.reshape(self.size, self.size, 3)
 
     def at_pixels(self, values: FloatArray) -> FloatArray:
-        """Values (V,) of the light mesh's vertices at the pixels: (size, size) float32, 0 where nothing is."""
+        """Values (V,) of the light mesh's vertices at the pixels: (size, size) float32, 0 where nothing is.
+
+        None is beyond the vertices' own: pixels past the borders go on with the surface.
+        """
         image = np.zeros(self.size * self.size, np.float32)
         there = np.asarray(values, np.float32)[self._space.vertex]
         for block in self._blocks:
-            image[block.pixel] = block.frame @ there
+            image[block.pixel] = np.clip(block.frame @ there, there.min(), there.max())
         image[self.around] = image[self.nearest]
         return image.reshape(self.size, self.size)
 
@@ -103,9 +106,9 @@ class NormalMap:
         count, flat = len(self._surface.mesh.vertices), np.asarray(picture, np.float64).ravel()
         sums, weights = np.zeros(count), np.zeros(count)
         for block in self._blocks:
-            ones = np.ones(len(block.pixel))
-            sums += np.bincount(self._space.vertex, block.frame.T @ flat[block.pixel], count)
-            weights += np.bincount(self._space.vertex, block.frame.T @ ones, count)
+            near, ones = block.frame.maximum(0).T, np.ones(len(block.pixel))
+            sums += np.bincount(self._space.vertex, near @ flat[block.pixel], count)
+            weights += np.bincount(self._space.vertex, near @ ones, count)
         return sums, weights
 
     def _fine_normals(self, fine: FloatArray) -> FloatArray:

@@ -13,13 +13,13 @@ gain : Stärke                    level : Stufe                   job : Auftrag
 Nobody is addressed: buttons, and what asks for something, stand in the infinitive.
 """
 
-from . import core, export, files, guide, operators, panels, points, properties, sentences, settings
+from . import core, export, files, guide, operators, panels, points, properties, sentences, settings, wrinkles
 
-PARTS = (guide, panels, operators, export, properties, settings, points)
+PARTS = (guide, panels, operators, export, properties, settings, points, wrinkles)
 
 TEXTS: dict[str, str] = {english: german for part in PARTS for english, german in part.TEXTS.items()}
 """English text -> German text, with the same {fields}."""
 
-SENTENCES = sentences.SENTENCES | export.SENTENCES | core.SENTENCES | files.SENTENCES
-PHRASES = sentences.PHRASES | core.PHRASES | files.PHRASES | points.TEXTS
+SENTENCES = sentences.SENTENCES | export.SENTENCES | wrinkles.SENTENCES | core.SENTENCES | files.SENTENCES
+PHRASES = sentences.PHRASES | core.PHRASES | files.PHRASES | points.TEXTS | wrinkles.PHRASES
 """English pattern -> German pattern, as `translations.sentences` wants them."""

@@ -120,7 +120,7 @@ def check_shading(thing: bpy.types.Object, folder: Path, most: float) -> None:
 
 
 def sliders_move_the_wrinkles() -> None:
-    """In Cycles, as the document says, for every depth and both conventions; also from a saved file, without scripts."""
+    """In Cycles as the document says, for every depth and both conventions, also from a saved file without scripts."""
     for depth, convention, most in (("png8", "directx", 1.0), ("exr", "opengl", 0.3), ("png16", "opengl", 0.3)):
         skin = sheets(depth, convention)
         assert bpy.ops.facial_retarget.make_wrinkle_kit() == {"FINISHED"}
