@@ -5,7 +5,7 @@ from typing import Any
 from bpy.types import Context, Operator
 
 from ..facial_retarget_addon.core.methods.settings import LEVELED
-from ..facial_retarget_addon.translations import told
+from ..facial_retarget_addon.translations import filled, told
 from .errors import tells_user
 from .in_steps import InSteps
 from .polls import OnFace, in_mode
@@ -25,15 +25,15 @@ class FACIAL_RETARGET_OT_make_wrinkle_kit(InSteps, Operator):
         task = context.scene.facial_retarget
         kit, sculpted = task.wrinkle_kit, task.wrinkle_kit.detail == "OBJECT"
         if task.target is None:
-            cls.poll_message_set("Choose a target under Faces")
+            cls.poll_message_set(filled("Choose a target under Faces"))
         elif sculpted and kit.fine is None:
-            cls.poll_message_set("Choose the high-poly object")
+            cls.poll_message_set(filled("Choose the high-poly object"))
         elif not sculpted and task.method not in LEVELED:
             cls.poll_message_set(told(f"This method has no levels; {' and '.join(LEVELED)} have"))
         elif not sculpted and task.source is None and task.cloning.donor == "SOURCE":
-            cls.poll_message_set("Choose a source under Faces, or clone from the built-in actor")
+            cls.poll_message_set(filled("Choose a source under Faces, or clone from the built-in actor"))
         elif not kit.folder:
-            cls.poll_message_set("Choose a folder for the wrinkle kit")
+            cls.poll_message_set(filled("Choose a folder for the wrinkle kit"))
         else:
             return in_mode(cls, context)
         return False
