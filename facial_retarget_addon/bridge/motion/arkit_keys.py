@@ -7,6 +7,8 @@ import re
 from bpy.types import Object
 
 from ...core.mpeg4.arkit import ARKIT_NAMES
+from ...core.shapes.sides import arkit_merges
+from ..key_sets import key_names
 
 _SIDES = {"_l": "left", "_r": "right"}
 
@@ -23,6 +25,15 @@ def find_arkit_keys(thing: Object) -> dict[str, str]:
     exact = set(keys.key_blocks.keys())
     found = {name: name if name in exact else spelled.get(_spelling(name)) for name in ARKIT_NAMES}
     return {name: key for name, key in found.items() if key is not None}
+
+
+def find_arkit_halves(thing: Object) -> dict[str, tuple[str, ...]]:
+    """ARKit's name -> the object's two shape keys, for shapes without sides that it has as a left and a right half.
+
+    Heads are often built so: browInnerUp_L and browInnerUp_R, cheekPuff_L and cheekPuff_R.
+    """
+    whole = find_arkit_keys(thing)
+    return {name: halves for name, halves in arkit_merges(key_names(thing)).items() if name not in whole}
 
 
 def _spelling(name: str) -> str:

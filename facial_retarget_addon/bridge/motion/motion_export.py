@@ -18,7 +18,7 @@ from ...files.motion.arkit_csv import write_arkit_csv
 from ...files.motion.fap import write_fap
 from ..background import Steps, part
 from ..performance import check_range, each_frame, read_frame, scene_rate
-from .arkit_keys import find_arkit_keys
+from .arkit_keys import find_arkit_halves, find_arkit_keys
 from .controls import has_controls, read_controls, shown_faps
 from .fap_faces import fit_steps
 from .head_empty import find_head, read_head
@@ -89,14 +89,16 @@ def _faps_steps(context: Context, thing: Object, path: Path, frames: range, sour
 
 
 def _weights_steps(context: Context, thing: Object, path: Path, frames: range) -> Steps[Exported]:
-    keys = find_arkit_keys(thing)
+    keys = {name: (key,) for name, key in find_arkit_keys(thing).items()} | find_arkit_halves(thing)
     if not keys:
         raise RetargetError(f"object {thing.name!r} has no shape key with an ARKit name, expected some such as jawOpen")
     weights = np.zeros((len(frames), len(ARKIT_NAMES)))
-    held = yield from part(key_value_steps(context, [(thing, key) for key in keys.values()], frames), 0.0, 0.9)
-    weights[:, [ARKIT_NAMES.index(name) for name in keys]] = held
+    each = [(name, key) for name, some in keys.items() for key in some]
+    held = yield from part(key_value_steps(context, [(thing, key) for _, key in each], frames), 0.0, 0.9)
+    for (name, _), values in zip(each, held.T, strict=True):  # of two halves their mean
+        weights[:, ARKIT_NAMES.index(name)] += values / len(keys[name])
     yield 0.9, "Writing"
     write_arkit_csv(ArkitTake(path.stem, scene_rate(context.scene), weights, None, None), path)
     missing = [name for name in ARKIT_NAMES if name not in keys]
     lack = f"{len(missing)} ARKit shapes have no shape key and are 0: {', '.join(missing)}"
-    return Exported(len(frames), f"{len(keys)} shape keys", [lack] if missing else [])
+    return Exported(len(frames), f"{len(each)} shape keys", [lack] if missing else [])

@@ -17,7 +17,7 @@ from ...files.motion.read import read_motion
 from ...files.motion.stream import stream_of_motion
 from ..background import Steps, in_thread, part
 from ..performance import scene_rate
-from .arkit_keys import find_arkit_keys
+from .arkit_keys import find_arkit_halves, find_arkit_keys
 from .controls import has_controls
 from .fap_faces import fit_steps
 from .head_empty import write_head
@@ -112,5 +112,6 @@ def _read_steps(options: ImportOptions, scene_fps: float) -> Steps[Take]:
 def _needs_face(thing: Object, take: Take) -> bool:
     """Whether controls or named keys are missing, so that the points have to make them."""
     if isinstance(take.motion, ArkitTake):
-        return len(find_arkit_keys(thing)) < len(ARKIT_NAMES) and len(thing.facial_retarget.points) > 0
+        known = find_arkit_keys(thing).keys() | find_arkit_halves(thing).keys()
+        return len(known) < len(ARKIT_NAMES) and len(thing.facial_retarget.points) > 0
     return not has_controls(thing)

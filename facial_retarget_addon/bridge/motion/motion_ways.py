@@ -24,7 +24,7 @@ from ..background import Steps, in_thread
 from ..bakes.frames import write_frames
 from ..curves import ensure_curves, remove_curves, write_curve
 from ..shape_keys import ensure_key
-from .arkit_keys import find_arkit_keys
+from .arkit_keys import find_arkit_halves, find_arkit_keys
 from .controls import Shapes, has_controls, shape_steps, shown_faps, write_controls
 from .fap_faces import write_shapes
 from .motion_curves import CHANNELS, MOTION, check_free, drive_keys
@@ -89,15 +89,18 @@ def controls_steps(thing: Object, face: FapFace | None, take: Take) -> Steps[Wri
 
 
 def _named_steps(thing: Object, face: FapFace | None, take: ArkitTake, frames: FloatArray) -> Steps[Write]:
-    """Curves of the 52 named shape keys; those that are missing are made, if there is a face to make them from."""
-    named = find_arkit_keys(thing)
-    missing = [name for name in ARKIT_NAMES if name not in named]
+    """Curves of the 52 named shape keys; those that are missing are made, if there is a face to make them from.
+
+    Both halves of a shape without sides do what the whole would.
+    """
+    named, halves = find_arkit_keys(thing), find_arkit_halves(thing)
+    missing = [name for name in ARKIT_NAMES if name not in named and name not in halves]
     if not named and face is None:
         raise RetargetError(
             f"object {thing.name!r} has no shape key with an ARKit name such as jawOpen, and no feature points to make "
             "one from"
         )
-    check_free(thing, named.values())
+    check_free(thing, [*named.values(), *(key for pair in halves.values() for key in pair)])
     made: dict[str, FloatArray] = {}
     if missing and face is not None:
         made = yield from in_thread(lambda progress: expression_shapes(face, ("arkit",)))
@@ -107,7 +110,9 @@ def _named_steps(thing: Object, face: FapFace | None, take: ArkitTake, frames: F
         write_shapes(thing, {name: made[name] for name in missing if name in made})
         if face is not None:
             named.update({name: ensure_key(thing, name).name for name in missing})
-        drive_keys(thing, {key: weights[name] for name, key in named.items()}, frames, MOTION)
+        driven = {key: weights[name] for name, key in named.items()}
+        driven |= {key: weights[name] for name, pair in halves.items() for key in pair}
+        drive_keys(thing, driven, frames, MOTION)
         lost = [name for name in missing if name not in made and weights[name].any()]
         return [f"ARKit shapes that the take uses and the face cannot show: {', '.join(lost)}"] if lost else []
 

@@ -98,6 +98,17 @@ jaw = weights[:, names.index("jawOpen")]
 np.testing.assert_allclose(rigged[:, names.index("eyeBlinkLeft")], jaw / 2, atol=1e-6)
 assert not np.delete(rigged, [names.index("jawOpen"), names.index("eyeBlinkLeft")], axis=1).any()
 
+# A whole that the face has in halves drives both, and is their mean on the way back.
+for side in "LR":
+    rig.shape_key_add(name=f"cheekPuff_{side}", from_mix=False).value = 0.0
+follower.driver_remove("value")
+import_motion(filepath=str(folder / "weights.csv"), frame_start=START)
+puffed = weights[:, names.index("cheekPuff")]
+back = exported("rig.csv").weights
+np.testing.assert_allclose(back[:, names.index("cheekPuff")], puffed, atol=1e-6)
+context.scene.frame_set(START + 1)
+assert {round(rig.data.shape_keys.key_blocks[f"cheekPuff_{side}"].value, 5) for side in "LR"} == {round(puffed[1], 5)}
+
 # What cannot be exported is said; nothing is written.
 with refused("MPEG-4"):
     exported("rig.fap")
