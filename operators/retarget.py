@@ -21,10 +21,11 @@ class FACIAL_RETARGET_OT_retarget(OnTask, InSteps, Operator):
         """Read, compute, bake."""
         from ..facial_retarget_addon.bridge.retargeting import retarget_steps
 
+        self._target = context.scene.facial_retarget.target
         return retarget_steps(context)
 
     def finish(self, result: dict[str, Any]) -> None:
-        """Pass on the report's warnings."""
+        """Pass on the report's warnings, and how many frames the report lists."""
         for warning in result.get("warnings", ()):
             self.report({"WARNING"}, told(warning))
-        self.report({"INFO"}, "Retargeted")
+        self.report({"INFO"}, told(f"Retargeted: {self._target.facial_retarget.findings_text}"))

@@ -295,7 +295,6 @@ TEXTS = {
     "Choose a frame or a shape key in the report's list": (
         "Ein Bild oder einen Formschlüssel in der Liste des Berichts wählen"
     ),
-    "Retargeted": "Übertragen",
     "The target follows the source": "Das Ziel folgt der Quelle",
     "Click a method to see the target follow by it": "Auf eine Methode klicken, um das Ziel ihr folgen zu sehen",
     "Lips": "Lippen",

@@ -423,6 +423,7 @@ SENTENCES = {
         "Normalenmasche erstellen"
     ),
     "{} of {} frames have trouble": "{} von {} Bildern sind fehlerhaft",
+    "Retargeted: {}": "Übertragen: {:said}",
     "{} of {} shape keys have trouble": "{} von {} Formschlüsseln sind fehlerhaft",
     "object {} has {} vertices, expected the {} that it had when this was found": (
         "Objekt {} hat {} Eckpunkte statt der {}, die es hatte, als das gefunden wurde"
