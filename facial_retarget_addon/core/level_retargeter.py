@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .arrays import FloatArray, IntArray
+from .arrays import BoolArray, FloatArray, IntArray
 from .binding import apply_matrix
 from .carry import Motion
 from .errors import RetargetError
@@ -142,6 +142,13 @@ class LevelRetargeter:
         """Values of the target's vertices (Vt,) at the vertices of the finest mesh (N,)."""
         fine: FloatArray = self._pair.fine_places @ values
         return fine
+
+    @property
+    def skin(self) -> BoolArray:
+        """(Vt,) target vertices of the components that the finest mesh lies on: not eyes, teeth or lashes."""
+        components = self._pair.target.components
+        shown: BoolArray = np.isin(components, components[np.unique(self._pair.fine_places.indices)])
+        return shown
 
     def level_faces(self, level: int) -> IntArray:
         """Faces (M, 3) of a level, 1 the coarsest; its vertices are the first ones of the finest mesh.

@@ -88,6 +88,13 @@ def test_tiles_are_udim_tiles_and_only_their_own_triangles_are_in_them() -> None
     assert set(rasterise(shifted, 8, (2, 1)).face) == {2}
 
 
+def test_what_lies_outside_of_the_udim_tiles_has_none() -> None:
+    outside = [SQUARE + move for move in ([-1.0, 0.0], [0.0, -1.0], [10.0, 0.0], [0.0, 100.0])]
+    assert tiles(np.concatenate([*outside, SQUARE + [9.0, 3.0]])) == [(9, 3)]
+    # A half that lies a tile to the left of the other takes no pixel from it.
+    assert set(rasterise(np.concatenate([SQUARE, SQUARE - [1.0, 0.0]]), 8).face) == {0, 1}
+
+
 def test_the_margin_copies_the_nearest_pixel() -> None:
     covered = np.array([3 * 8 + 3, 3 * 8 + 4])
     around, nearest = margin(covered, 8, 1)
@@ -227,6 +234,30 @@ def test_a_performance_becomes_maps_of_the_artists_mesh(fitted: Fitted) -> None:
     assert np.abs(lively - still).max() > 0.05
     again = made.frame(performance[0])[1][0, 0]
     np.testing.assert_array_equal(still, again)
+
+
+def test_eyes_over_the_skin_in_the_texture_take_no_pixel_of_it(fitted: Fitted) -> None:
+    _, problem, performance, child = fitted
+    mesh, ball = child.face.mesh, cap(5)
+    count = len(mesh.vertices)
+    vertices = np.concatenate([mesh.vertices, ball.mesh.vertices * 5 + mesh.vertices.mean(axis=0)])
+    corners = np.concatenate([child.corners, ball.corners + count])
+    counts = np.concatenate([child.counts, ball.counts])
+    uvs = np.concatenate([child.uvs[child.corners], ball.uvs])
+    whole = TexturedSurface(TriMesh.from_polygons(vertices, counts, corners), counts, corners, uvs)
+    headed = Problem(replace(problem.source, examples={}), replace(problem.target, mesh=whole.mesh, examples={}))
+    fitted_head = fit("hierarchical", headed, HierarchicalSettings(levels=3))
+    assert isinstance(fitted_head, LevelRetargeter)
+    assert fitted_head.skin[child.face.points.vertices].all()
+    assert not fitted_head.skin[count:].any()
+    settings = MapSettings(pixels=64)
+    with_ball = FrameMaps(fitted_head, headed, whole, settings)
+    bare = Problem(headed.source, replace(problem.target, examples={}))
+    alone = FrameMaps(fit("hierarchical", bare, HierarchicalSettings(levels=3)), bare, skin_surface(child), settings)
+    assert len(with_ball.frame(performance[0])[0]) == len(vertices)
+    np.testing.assert_array_equal(with_ball.mapped.mesh.faces, alone.mapped.mesh.faces)
+    one, two = (maps.frame(performance[9])[1][0, 0] for maps in (with_ball, alone))
+    np.testing.assert_allclose(one, two, atol=1e-3)
 
 
 def test_a_level_gets_a_chart_and_its_maps(fitted: Fitted) -> None:

@@ -6,6 +6,7 @@ import numpy as np
 from scipy.sparse.csgraph import dijkstra
 
 from ..arrays import FloatArray, IntArray, Progress, no_progress
+from ..errors import RetargetError
 from ..gained_face import GainedFace
 from ..level_retargeter import LevelRetargeter
 from ..mesh import TriMesh
@@ -37,11 +38,13 @@ class FrameMaps:
     Attributes
     ----------
     surface : the light mesh in its neutral.
+    mapped : the same, with triangles only where the maps are for them: an artist's eyes, teeth and lashes, which the
+        finest level has not, may lie over the skin in the texture.
     maps : UDIM tile -> the map of its texels.
 
     Raises
     ------
-    RetargetError : if there is no such level, or the texture coordinates cover no pixel.
+    RetargetError : if there is no such level, or the texture coordinates cover no pixel or lie in no UDIM tile.
     """
 
     def __init__(
@@ -60,7 +63,10 @@ class FrameMaps:
         self._own = surface is not None
         self.surface = surface or _level_surface(fine, retargeter.level_faces(settings.level))
         strength = _fade(fine) if self._own else None
-        self.maps = light_maps(self.surface, fine, settings, strength, problem.make_caster, progress)
+        self.mapped = self.surface
+        if self._own:
+            self.mapped = self.surface.part(retargeter.skin[: len(self.surface.mesh.vertices)])
+        self.maps = light_maps(self.mapped, fine, settings, strength, problem.make_caster, progress)
 
     def frame(self, source: FloatArray) -> tuple[FloatArray, dict[Tile, FloatArray]]:
         """The light mesh (V, 3) of a source frame (Vs, 3), and each tile's unit normals (size, size, 3).
@@ -87,12 +93,24 @@ def light_maps(
     progress: Progress = no_progress,
 ) -> dict[Tile, NormalMap]:
     """The map of each UDIM tile that a light mesh reaches; parameters and errors as `fit_normal_map`."""
-    found = tiles(surface.triangle_uvs)
+    found = _udim_tiles(surface)
     maps: dict[Tile, NormalMap] = {}
     for number, tile in enumerate(found):
         progress(number / len(found), "placing the pixels")
         maps[tile] = fit_normal_map(surface, fine, settings.pixels, tile, settings.margin, strength, make_caster)
     return maps
+
+
+def _udim_tiles(surface: TexturedSurface) -> list[Tile]:
+    """The tiles of a surface, at least one."""
+    found = tiles(surface.triangle_uvs)
+    if not found:
+        low, high = surface.uvs.min(axis=0), surface.uvs.max(axis=0)
+        raise RetargetError(
+            f"texture coordinates from ({low[0]:.3g}, {low[1]:.3g}) to ({high[0]:.3g}, {high[1]:.3g}) lie in no UDIM "
+            "tile, expected some from (0, 0) on"
+        )
+    return found
 
 
 def _level_surface(fine: TriMesh, faces: IntArray) -> TexturedSurface:

@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..arrays import FloatArray, IntArray, cross, unit_vectors
+from ..arrays import BoolArray, FloatArray, IntArray, cross, unit_vectors
 from ..errors import RetargetError
 from ..mesh import TriMesh
 
@@ -56,6 +56,12 @@ class TexturedSurface:
             )
         if not np.isfinite(self.uvs).all():
             raise RetargetError("texture coordinates are NaN or infinite, expected finite ones")
+
+    def part(self, shown: BoolArray) -> TexturedSurface:
+        """The same polygons, of which only those with vertices (V,) that are shown have triangles."""
+        kept = shown[self.mesh.faces].all(axis=1)
+        mesh = TriMesh(self.mesh.vertices, self.mesh.faces[kept], self.mesh.polygons[kept])
+        return TexturedSurface(mesh, self.counts, self.corners, self.uvs)
 
     @cached_property
     def triangle_corners(self) -> IntArray:

@@ -14,6 +14,8 @@ _BLOCK = 1 << 21
 """Pixels that are looked at together."""
 _EDGE = 1e-9
 """A pixel's centre counts as inside where its weights are above minus this."""
+_TILES = 10, 100
+"""How many UDIM tiles there are along u and v."""
 _FOOTPRINT = 2**0.5
 """A bilinear look-up takes of pixels whose centres are less than this away, in pixels."""
 _BEYOND = 1.0
@@ -136,9 +138,13 @@ def margin(covered: IntArray, size: int, width: int) -> tuple[IntArray, IntArray
 
 
 def tiles(uvs: FloatArray) -> list[tuple[int, int]]:
-    """The UDIM tiles (u, v) that triangles (F, 3, 2) lie in, by their middles, ascending."""
+    """The UDIM tiles (u, v) that triangles (F, 3, 2) lie in, by their middles, ascending.
+
+    u of a tile goes from 0 to 9 and v from 0 to 99; triangles elsewhere have none. They repeat another tile's pixels,
+    or are hidden.
+    """
     found = np.unique(np.floor(uvs.mean(axis=1)).astype(np.int64), axis=0)
-    return [(int(u), int(v)) for u, v in found]
+    return [(int(u), int(v)) for u, v in found if 0 <= u < _TILES[0] and 0 <= v < _TILES[1]]
 
 
 def _candidates(places: FloatArray, size: int) -> Iterator[tuple[IntArray, IntArray, IntArray]]:
