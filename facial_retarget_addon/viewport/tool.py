@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import bpy
@@ -23,7 +24,7 @@ class FACIAL_RETARGET_TOOL_points(WorkSpaceTool):
         "Click on the active face to place the point whose turn it is.\n"
         "Drag a point along the surface, Ctrl-click removes it"
     )
-    bl_icon = "ops.mesh.polybuild_hover"
+    bl_icon = str(Path(__file__).with_name("feature_points"))  # .dat, made by build_icon.py
     bl_cursor = "CROSSHAIR"
     bl_keymap = (
         ("facial_retarget.place_point", {"type": "LEFTMOUSE", "value": "PRESS"}, None),
