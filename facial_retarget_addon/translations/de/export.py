@@ -9,7 +9,7 @@ TEXTS = {
     "Preparing": "Bereitet vor",
     "Samples": "Abtastungen",
     "How often each frame is sampled; 0 for as often as the keyframes between frames ask for": (
-        "Wie oft jedes Bild abgetastet wird; 0 für so oft, wie die Keyframes zwischen den Bildern verlangen"
+        "Wie oft jedes Bild abgetastet wird; 0 für so oft, wie die Schlüsselbilder zwischen den Bildern verlangen"
     ),
     "Only Without Loss": "Nur ohne Verlust",
     "Write nothing if the format loses something": "Nichts schreiben, wenn das Format etwas verliert",
@@ -56,10 +56,11 @@ TEXTS = {
     "What this copy was prepared from": "Woraus diese Kopie vorbereitet wurde",
     # What is lost.
     "Only the scene's frames {first} to {last} are exported: the keyframes reach from {start:g} to {end:g}": (
-        "Nur die Bilder {first} bis {last} der Szene werden exportiert: die Keyframes reichen von {start:g} bis {end:g}"
+        "Nur die Bilder {first} bis {last} der Szene werden exportiert: die Schlüsselbilder reichen von {start:g} bis "
+        "{end:g}"
     ),
     "Keyframes lie between frames at many places: the whole frames are exported": (
-        "Keyframes liegen an vielen Stellen zwischen den Bildern: exportiert werden die ganzen Bilder"
+        "Schlüsselbilder liegen an vielen Stellen zwischen den Bildern: exportiert werden die ganzen Bilder"
     ),
     "Shape keys become moving vertices, without sliders: {names}": (
         "Formschlüssel werden zu bewegten Eckpunkten, ohne Regler: {names}"
