@@ -49,9 +49,12 @@ class MaskFile:
 
 @dataclass(frozen=True)
 class OutputFiles:
-    """Where the results go: the target's frames, the figures (JSON), the page to look at (HTML)."""
+    """Where the results go: the target's frames, the figures (JSON), the page to look at (HTML).
 
-    frames: Path
+    frames : None for a job of bakes or normal maps alone.
+    """
+
+    frames: Path | None = None
     report: Path | None = None
     page: Path | None = None
 
@@ -89,6 +92,16 @@ class Job:
     bake: BakeOutput | None = None
     chosen: FrameRange = EVERY_FRAME
     fps: float = FPS
+
+    @property
+    def main_output(self) -> Path:
+        """What the job is about: its frames, or else its bake's curves, or its normal maps."""
+        if self.output.frames is not None:
+            return self.output.frames
+        if self.bake is not None:
+            return self.bake.curves[0]
+        assert self.normal_maps is not None
+        return self.normal_maps.folder
 
     def inputs(self) -> dict[str, Path]:
         """What is read: how the job file names it -> its path."""
@@ -139,7 +152,7 @@ def read_job(path: Path) -> Job:
         target=_read_face(root.table("target"), path.parent, ("points", "parts"), ()),
         examples=_read_examples(root, path.parent),
         settings=read_method_settings(method, root),
-        output=_read_output(root.table("output"), path.parent),
+        output=_read_output(root, path.parent),
         base=read_optional_path(root, "base", path.parent),
         path=path,
         regions=_read_regions(root),
@@ -239,13 +252,16 @@ def _map_faults(maps: MapOutput, method: str, settings: Settings) -> list[str]:
     return []
 
 
-def _read_output(table: Table, folder: Path) -> OutputFiles:
+def _read_output(root: Table, folder: Path) -> OutputFiles:
+    table = Table(root.optional("output", dict) or {}, "[output]", root.wrong)
     output = OutputFiles(
-        read_path(table, "frames", folder),
+        read_optional_path(table, "frames", folder),
         read_optional_path(table, "report", folder),
         read_optional_path(table, "page", folder),
     )
     table.no_more()
+    if output.frames is None and not {"bake", "normal_maps"} & set(root.names()):
+        root.wrong.append("[output] frames is missing, expected a path, since there is no [bake] and no [normal_maps]")
     return output
 
 

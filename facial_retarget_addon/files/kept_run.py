@@ -25,15 +25,17 @@ from .whole import check_place, write_whole
 
 ENDING = ".unfinished"
 """Behind an output's name: the folder of what is kept of it."""
+_PICTURES = f".pictures{ENDING}"
+"""The same of normal maps, where the job makes nothing else."""
 _RECORD = "made_with.json"
-_CODE = Path(__file__).resolve().parents[1] / "core"
+_CODE = [Path(__file__).resolve().parents[1] / room for room in ("core", "files")]
 _CHUNK = 1 << 20
 
 
 class KeptRun:
     """Frames, block by block, and normal maps of a job, each of them whole as soon as it is there.
 
-    A folder beside the job's frames holds the blocks and a record of all that they depend on: the job's method,
+    A folder beside the job's main output holds the blocks and a record of all that they depend on: the job's method,
     settings, gains and range, what its input files hold, and this program. One beside its normal maps holds pictures.
 
     Raises
@@ -83,10 +85,12 @@ class KeptRun:
 
 def kept_folders(job: Job) -> tuple[Path, Path | None]:
     """Where a job keeps its frames, and its normal maps, None where it makes none."""
-    places = job.output.frames, None if job.normal_maps is None else job.normal_maps.folder
-    frames, pictures = (None if place is None else place.with_name(place.name + ENDING) for place in places)
-    assert frames is not None
-    return frames, pictures
+    frames = job.main_output.with_name(f"{job.main_output.name}{ENDING}")
+    if job.normal_maps is None:
+        return frames, None
+    folder = job.normal_maps.folder
+    # Pictures appear as a folder of their own: blocks cannot lie among them.
+    return frames, folder.with_name(f"{folder.name}{ENDING if folder != job.main_output else _PICTURES}")
 
 
 def forget(job: Job) -> None:
@@ -108,7 +112,7 @@ def made_with(job: Job) -> dict[str, str]:
     RetargetError : if an input cannot be read.
     """
     values: dict[str, object] = {
-        "this program": _fingerprint(sorted(_CODE.rglob("*.py"))),
+        "this program": _fingerprint(sorted(path for room in _CODE for path in room.rglob("*.py"))),
         "NumPy": np.__version__,
         "SciPy": version("scipy"),
         "method": job.method,

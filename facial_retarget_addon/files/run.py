@@ -101,7 +101,8 @@ def run_job(path: Path, progress: Progress = no_progress, resume: bool = False) 
     progress(0.85, "Writing")
     with written_whole() as aside:
         corners = inputs.target.counts, inputs.target.corners
-        add_frames(aside, result.frames, job.output.frames, corners, job.fps / job.chosen.step)
+        if job.output.frames is not None:
+            add_frames(aside, result.frames, job.output.frames, corners, job.fps / job.chosen.step)
         if job.bake is not None and baked is not None:
             add_bake(aside, job.bake, baked, inputs.target, inputs.numbers, job.fps)
         if job.output.report is not None:
@@ -170,7 +171,8 @@ def _read(job: Job) -> tuple[Inputs | None, list[str]]:
     """What the files hold, and what is wrong with them; None where so much is unreadable that there is no problem."""
     reading = Reading()
     inputs = reading.inputs(job)
-    reading.attempt(check_frames_place, job.output.frames)
+    if job.output.frames is not None:
+        reading.attempt(check_frames_place, job.output.frames)
     for output in (job.output.report, job.output.page):
         if output is not None:
             reading.attempt(check_place, output)

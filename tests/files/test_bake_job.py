@@ -16,7 +16,7 @@ from facial_retarget_addon.core.methods.settings import BakeSettings, Hierarchic
 from facial_retarget_addon.files.bake_output import BakeOutput
 from facial_retarget_addon.files.frame_range import FrameRange
 from facial_retarget_addon.files.frames import read_frames, write_frames
-from facial_retarget_addon.files.job import read_job, write_job
+from facial_retarget_addon.files.job import OutputFiles, read_job, write_job
 from facial_retarget_addon.files.meshes import read_mesh
 from facial_retarget_addon.files.npz import write_arrays
 from facial_retarget_addon.files.shape_files import read_shapes
@@ -77,6 +77,15 @@ def test_a_compact_bake_plays_the_frames_within_its_tolerance(long_job):
     document = json.loads(job.bake.curves[1].read_text())
     np.testing.assert_allclose(np.array(list(document["curves"].values())).T, rows[:, 2:], rtol=1e-6)
     assert list(document["curves"]) == list(keys.names)
+
+
+def test_a_job_of_a_bake_alone_writes_no_frames(long_job):
+    job = replace(long_job, output=OutputFiles())
+    job = with_bake(job, kind="compact")
+    before = {path.name for path in job.path.parent.iterdir()}
+    assert main(["run", str(job.path), "--quiet"]) == 0
+    new = {path.name for path in job.path.parent.iterdir()} - before
+    assert new == {"curves.csv", "curves.json", "keys.npz"}
 
 
 def test_the_same_job_gives_the_same_bytes(long_job):

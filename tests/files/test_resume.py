@@ -20,7 +20,7 @@ from facial_retarget_addon.core.normal_maps.frame_maps import FrameMaps
 from facial_retarget_addon.files import whole as whole_files
 from facial_retarget_addon.files.bake_output import BakeOutput
 from facial_retarget_addon.files.frames import write_frames
-from facial_retarget_addon.files.job import MapOutput, write_job
+from facial_retarget_addon.files.job import MapOutput, OutputFiles, write_job
 from facial_retarget_addon.files.kept_run import kept_folders
 from facial_retarget_addon.files.meshes import read_mesh
 
@@ -124,6 +124,22 @@ def test_a_killed_run_goes_on_and_gives_the_same_bytes(long_job, computed):
     assert computed == [retarget.BLOCK, COUNT - (BLOCKS - 1) * retarget.BLOCK]
     assert outputs(long_job) == wanted
     assert left(long_job) == []
+
+
+@pytest.mark.parametrize("bakes", [True, False])
+def test_a_job_without_frames_goes_on_too(long_job, computed, bakes):
+    maps = MapOutput(long_job.path.with_name("maps"), MapSettings(pixels=32))
+    job = replace(long_job, output=OutputFiles(), normal_maps=maps, bake=long_job.bake if bakes else None)
+    write_frames(np.load(job.source.frames)["frames"][:18], job.source.frames)
+    write_job(job, job.path)
+    killed(job, "normal_map_files", "write_whole", 17)
+    both = ["curves.csv.unfinished", "maps.unfinished"] if bakes else ["maps.pictures.unfinished", "maps.unfinished"]
+    assert left(job) == both
+    computed.clear()
+    assert main(["run", str(job.path), "--resume", "--quiet"]) == 0
+    assert computed == [1]
+    assert len(list(maps.folder.iterdir())) == 18
+    assert left(job) == []
 
 
 def test_a_run_killed_in_its_last_step_computes_no_frame_again(long_job, computed):
