@@ -132,6 +132,9 @@ SENTENCES = {
         "Texturkoordinaten von ({}, {}) bis ({}, {}) bedecken kein Pixel der UDIM-Kachel {} bei {} Pixeln; sie müssen "
         "darin liegen"
     ),
+    "texture coordinates from ({}, {}) to ({}, {}) lie in no UDIM tile, expected some from (0, 0) on": (
+        "Texturkoordinaten von ({}, {}) bis ({}, {}) liegen in keiner UDIM-Kachel; sie beginnen bei (0, 0)"
+    ),
     "texture coordinates are NaN or infinite, expected finite ones": "Texturkoordinaten sind NaN oder unendlich",
     "none of the {} shape keys turns normals by {} degrees, the most is {}; expected keys with wrinkles that the light "
     "mesh lacks": (
