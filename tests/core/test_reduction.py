@@ -104,6 +104,29 @@ def test_no_motion_needs_no_key_and_one_frame_needs_one() -> None:
     assert one.errors.max() <= 1e-3
 
 
+class CountingDirections:
+    """A generator that notes how many random directions were asked for."""
+
+    def __init__(self) -> None:
+        self.counts: list[int] = []
+
+    def standard_normal(self, shape: tuple[int, int], kind: type) -> np.ndarray:
+        self.counts.append(shape[1])
+        return np.random.default_rng(0).standard_normal(shape, kind)
+
+
+def test_a_motion_far_larger_than_the_tolerance_needs_no_more_components() -> None:
+    """Lengths that differ by a tolerance from those of the motion would be lost in its float32."""
+    neutral, shapes, _ = bumps()
+    curve = np.sin(np.arange(300) * 0.37, dtype=np.float32)
+    moves = curve[:, None, None] * (np.float32([0, 0, 1]) + 0.01 * shapes[:1])
+    directions = CountingDirections()
+    keyed = compact(moves, neutral, 2e-4, 5.0, directions)
+    assert directions.counts == [32 + 8]
+    assert len(keyed.shapes) == 1
+    assert keyed.errors.max() <= 2e-4
+
+
 def test_what_cannot_be_meant_is_refused() -> None:
     neutral, shapes, _ = bumps()
     with pytest.raises(RetargetError, match=r"shape \(0, 1600, 3\).*at least one frame"):

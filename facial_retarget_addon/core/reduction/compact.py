@@ -22,6 +22,8 @@ _LEAST = 0.1
 _OVERSAMPLING = 8
 _COLUMNS = 4096
 """Coordinates that are taken in float64 at once."""
+_ROUNDING = 1e-4
+"""Part of the tolerance that float32 may lose."""
 _UNSEEN = 0.1
 """Part of the tolerance that may lie outside the components that the drawing together works with."""
 
@@ -97,9 +99,13 @@ class _Moving:
         for rows, block in blocks(self._displacements):
             yield rows, np.take(block, self._moving, axis=1).reshape(len(block), -1)
 
-    def squares(self) -> FloatArray:
-        """(F,) float64 squared length of each frame."""
-        return np.concatenate([np.einsum("fi,fi->f", block, block, dtype=np.float64) for _, block in self._blocks()])
+    def lacking(self, curves: FloatArray, shapes: FloatArray) -> FloatArray:
+        """(F,) float64 squared length of what each frame lacks with curves (F, R) of shapes (R, 3M)."""
+        squares = np.empty(len(curves))
+        for rows, block in self._blocks():
+            left = block - curves[rows] @ shapes
+            squares[rows] = np.einsum("fi,fi->f", left, left, dtype=np.float64)
+        return squares
 
     def times(self, matrix: FloatArray) -> FloatArray:
         """(F, n): the motion times a matrix (3M, n)."""
@@ -136,7 +142,6 @@ def _components(motion: _Moving, most: float, rng: np.random.Generator) -> _Comp
     Truncated singular value decomposition through a random subspace, twice as large until it is large enough
     (Halko, Martinsson and Tropp 2011).
     """
-    whole = motion.squares()
     rank = 16
     while True:
         rank = min(2 * rank, *motion.shape)
@@ -150,10 +155,10 @@ def _components(motion: _Moving, most: float, rng: np.random.Generator) -> _Comp
         squares, turned = np.linalg.eigh(_gram(shapes))
         turned, strength = turned[:, : -rank - 1 : -1], np.sqrt(np.maximum(squares[: -rank - 1 : -1], 0.0))
         curves = basis @ turned.astype(np.float32)
-        taken = np.cumsum((curves * strength).astype(np.float64) ** 2, axis=1)
-        rest = np.sqrt(np.maximum(whole[:, None] - np.column_stack([0 * whole, taken]), 0.0))
+        found = turned.T.astype(np.float32) @ shapes
+        rest = _lengths_left(curves * strength, motion.lacking(curves, found))
         if rest[:, -1].max() <= most or rank == min(motion.shape):
-            return _Components(curves, turned.T.astype(np.float32) @ shapes, rest).fewest(most)
+            return _Components(curves, found, rest).fewest(most)
 
 
 def _gram(rows: FloatArray) -> FloatArray:
@@ -163,6 +168,20 @@ def _gram(rows: FloatArray) -> FloatArray:
         part = rows[:, first : first + _COLUMNS].astype(np.float64)
         gram += part @ part.T
     return gram
+
+
+def _lengths_left(lengths: FloatArray, lacking: FloatArray) -> FloatArray:
+    """(F, R + 1) length of what each frame lacks with the first 0, 1, … of some components at right angles.
+
+    Summed up from the last one: the difference of two lengths would lose what is far smaller than the motion.
+
+    Parameters
+    ----------
+    lengths : (F, R) of what each component adds to each frame. lacking : (F,) squares of what they all lack.
+    """
+    squares = np.column_stack([lengths.astype(np.float64) ** 2, lacking])
+    left: FloatArray = np.sqrt(squares[:, ::-1].cumsum(axis=1)[:, ::-1])
+    return left
 
 
 def _turn_to_few_vertices(curves: FloatArray, shapes: FloatArray) -> None:
@@ -201,7 +220,7 @@ def _drawn_together(
         progress(0.3 + 0.7 * number / _ROUNDS, "drawing the keys together")
         cost = price * _spreading(shapes, places, reach)
         curves, shapes = _at_their_extremes(*_resolved(motion, _shrunk(motion, curves, shapes, cost)))
-        if _largest_error(motion, curves, shapes) <= tolerance * np.sqrt(len(places)):
+        if _largest_error(motion, curves, shapes) <= (1 - _ROUNDING) * tolerance * np.sqrt(len(places)):
             best = curves, shapes
             price *= growth
         else:
@@ -212,11 +231,17 @@ def _drawn_together(
 
 
 def _largest_error(motion: _Components, curves: FloatArray, shapes: FloatArray) -> float:
-    """What the worst frame lacks at most, with what lies outside the components."""
-    every, mixed = np.concatenate([motion.shapes, shapes]), np.column_stack([motion.curves, -curves])
-    gram = (every @ every.T).astype(np.float64)
-    inside = np.sqrt(np.maximum(np.einsum("fi,ij,fj->f", mixed, gram, mixed, optimize=True), 0.0))
-    return float((inside + motion.rest[:, -1]).max())
+    """What the worst frame lacks at most, with what lies outside the components.
+
+    What differs within them and what lies beside them are added up: no small difference of large numbers arises.
+    """
+    strength = np.linalg.norm(motion.shapes, axis=1)
+    units = motion.shapes / np.maximum(strength, np.float32(1e-30))[:, None]
+    within = shapes @ units.T
+    off = (motion.curves * strength - curves @ within).astype(np.float64)
+    beside = np.einsum("fi,ij,fj->f", curves, _gram(shapes - within @ units), curves, optimize=True)
+    lacking = np.sqrt(np.einsum("fi,fi->f", off, off) + np.maximum(beside, 0.0))
+    return float((lacking + motion.rest[:, -1]).max())
 
 
 def _spreading(shapes: FloatArray, places: FloatArray, reach: float) -> FloatArray:
