@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 from bpy.types import FCurve, Object, ShapeKey
@@ -29,12 +29,18 @@ def find_key(thing: Object, name: str) -> ShapeKey | None:
 
 def ensure_key(thing: Object, name: str) -> ShapeKey:
     """The shape key of this name; a new one equals the Basis and has value 0."""
+    return ensure_keys(thing, [name])[0]
+
+
+def ensure_keys(thing: Object, names: Sequence[str]) -> list[ShapeKey]:
+    """As `ensure_key`, for many keys: Blender goes through all of them to find one by its name."""
     ensure_basis(thing)
-    key = find_key(thing, name)
-    if key is None:
-        key = thing.shape_key_add(name=name, from_mix=False)
-        key.value = 0.0  # from Blender 5.0 a new key starts at 1
-    return key
+    there = {key.name: key for key in thing.data.shape_keys.key_blocks}
+    for name in names:
+        if name not in there:
+            there[name] = thing.shape_key_add(name=name, from_mix=False)
+            there[name].value = 0.0  # from Blender 5.0 a new key starts at 1
+    return [there[name] for name in names]
 
 
 def write_key(key: ShapeKey, positions: FloatArray) -> None:
@@ -53,10 +59,11 @@ def key_displacement(key: ShapeKey) -> FloatArray:
 
 def remove_keys(thing: Object, names: Iterable[str]) -> None:
     """Remove the shape keys of these names, where there are any."""
+    keys = thing.data.shape_keys
+    there = {} if keys is None else {key.name: key for key in keys.key_blocks}
     for name in names:
-        key = find_key(thing, name)
-        if key is not None:
-            thing.shape_key_remove(key)
+        if name in there:
+            thing.shape_key_remove(there.pop(name))
 
 
 def key_path(name: str) -> str:

@@ -18,7 +18,7 @@ from ..paths import chosen_path
 from ..settings import read_group
 from .cache import add_caches, cache_places, play_caches, with_suffix
 from .frames import check_frames, write_head_frames
-from .keyed import rig_keys, write_keyed
+from .keyed import check_keyed, rig_keys, write_keyed
 
 
 class Wish(NamedTuple):
@@ -80,6 +80,7 @@ def bake_steps(head: Head, unit: float, frames: FloatArray, times: Sequence[floa
         )
     if kind in ("compact", "rig"):
         baked = yield from _keyed_steps(head, unit, frames, wish.settings)
+        check_keyed(head, baked)
         figures |= baked.figures(unit)
         return PreparedBake(figures, [], _no_files, lambda: _write(head, kind, lambda: write_keyed(head, baked, times)))
     check_frames(head, frames, times, wish.pattern, absolute=kind == "absolute")

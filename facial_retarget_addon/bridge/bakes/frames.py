@@ -15,8 +15,8 @@ from ..curves import ensure_curves, find_curves, remove_curves, write_curve
 from ..heads import Head
 from ..key_sets import key_names
 from ..meshes import from_face_space
-from ..shape_keys import ensure_basis, ensure_key, remove_keys, value_path, write_key
-from .names import baked_keys, cache_modifier, frame_key_name, moved_keys, record_bake
+from ..shape_keys import ensure_basis, ensure_keys, remove_keys, value_path, write_key
+from .names import baked_keys, cache_modifier, check_free, frame_key_name, moved_keys, record_bake
 from .scene_cache import drop_cache
 
 STILL = 1e-6
@@ -40,6 +40,7 @@ def write_frames(
     """
     times = range(first, first + len(frames))
     _check_count(thing, frames)
+    check_free(thing, [frame_key_name(pattern, time) for time in times])
     _write_own(thing, from_face_space(thing, frames), times, pattern, absolute, None)
 
 
@@ -76,8 +77,9 @@ def check_frames(head: Head, frames: FloatArray, times: Sequence[float], pattern
     moved = moved_objects(head, frames)
     for thing in moved:
         _check_own_keys(thing, absolute)
-    for time in (times[0], times[-1]):
-        frame_key_name(pattern, time)
+    names = [frame_key_name(pattern, time) for time in times]
+    for thing in moved:
+        check_free(thing, names)
     return moved
 
 
@@ -153,14 +155,15 @@ def _write_own(
     names = [frame_key_name(pattern, time) for time in times]
     ensure_basis(thing)
     remove_bake(thing, keep=set(names))
-    for row, name in enumerate(names):
-        write_key(ensure_key(thing, name), positions[row : row + 1])
+    made = ensure_keys(thing, names)
+    for row, key in enumerate(made):
+        write_key(key, positions[row : row + 1])
     keys = thing.data.shape_keys
     keys.use_relative = not absolute
     bag = ensure_curves(keys, f"{keys.name} retargeted", shared)
     if absolute:
         # Blender spaces absolute keys by adding up tenths: what each one's moment came to is read back.
-        moments = [keys.key_blocks[name].frame for name in names]
+        moments = [key.frame for key in made]
         write_curve(bag, "eval_time", np.array(times, float), np.array(moments))
     else:
         step = time_step(times)

@@ -13,7 +13,7 @@ from ..curves import ensure_curves, remove_curves, write_curve
 from ..heads import Head
 from ..shape_keys import ensure_key, find_key, value_path, write_key
 from .frames import STILL, remove_bake
-from .names import baked_keys, record_bake
+from .names import baked_keys, check_free, record_bake
 
 
 def rig_keys(head: Head) -> RigKeys:
@@ -38,6 +38,12 @@ def rig_keys(head: Head) -> RigKeys:
     ranges = [find_key(head.owner(name), name) for name in kept]
     low, high = (np.array([getattr(key, side) for key in ranges]) for side in ("slider_min", "slider_max"))
     return RigKeys(kept, shapes[moving], low, high)
+
+
+def check_keyed(head: Head, baked: BakedKeys) -> None:
+    """RetargetError if `write_keyed` would write over shape keys of the artist's own."""
+    for thing in head.things:
+        check_free(thing, baked.names[len(baked.names) - baked.made :])
 
 
 def write_keyed(head: Head, baked: BakedKeys, times: Sequence[float]) -> None:

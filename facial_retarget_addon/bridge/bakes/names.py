@@ -8,7 +8,6 @@ from collections.abc import Iterable
 from bpy.types import Modifier, Object
 
 from ...core.errors import RetargetError
-from ..shape_keys import find_key
 
 RECORD = "facial_retarget_baked"
 """Property of a shape-key block: the names of the keys that a bake has made, one a line."""
@@ -18,7 +17,6 @@ MODIFIER = "Facial Retarget"
 """Name of the modifier that plays the cache of a bake."""
 LONGEST = 63
 """Bytes of a name that Blender keeps."""
-_FRAME = re.compile(r"frame_-?\d{3,}(\.\d+)?")
 
 
 def frame_key_name(pattern: str, frame: float) -> str:
@@ -26,13 +24,16 @@ def frame_key_name(pattern: str, frame: float) -> str:
 
     Raises
     ------
-    RetargetError : if the pattern has no #, or the name is longer than Blender keeps.
+    RetargetError : if the pattern has no # or a line break, or the name is longer than Blender keeps.
     """
     holes = re.search("#+", pattern)
     if holes is None:
         raise RetargetError(f"the pattern of names {pattern!r} has no #, expected some where the frame's number goes")
-    whole, part = divmod(frame, 1)
-    digits = f"{int(whole):0{len(holes.group())}d}" + (f"{part:.3f}"[1:].rstrip("0") if part else "")
+    if "\n" in pattern:
+        raise RetargetError(f"the pattern of names {pattern!r} has a line break, expected a single line")
+    whole, part = divmod(abs(frame), 1)
+    digits = f"{-int(whole) if frame < 0 else int(whole):0{len(holes.group())}d}"
+    digits += f"{part:.3f}"[1:].rstrip("0") if part else ""
     name = pattern[: holes.start()] + digits + pattern[holes.end() :]
     if len(name.encode()) > LONGEST:
         raise RetargetError(f"shape key {name!r} has a name of {len(name.encode())} bytes, expected at most {LONGEST}")
@@ -45,7 +46,19 @@ def baked_keys(thing: Object) -> list[str]:
     if keys is None:
         return []
     recorded = set(str(keys.get(RECORD, "")).split("\n"))
-    return [key.name for key in keys.key_blocks if key.name in recorded or _FRAME.fullmatch(key.name)]
+    return [key.name for key in keys.key_blocks if key.name in recorded]
+
+
+def check_free(thing: Object, names: Iterable[str]) -> None:
+    """RetargetError if a bake would write over a shape key of the artist's own."""
+    keys = thing.data.shape_keys
+    own = set() if keys is None else set(keys.key_blocks.keys()) - set(baked_keys(thing))
+    taken = next((name for name in names if name in own), None)
+    if taken is not None:
+        raise RetargetError(
+            f"object {thing.name!r} has a shape key {taken!r} of its own, which the bake would replace; expected "
+            "another name"
+        )
 
 
 def moved_keys(thing: Object) -> list[str]:
@@ -65,5 +78,6 @@ def cache_modifier(thing: Object) -> Modifier | None:
 def record_bake(thing: Object, names: Iterable[str], moved: Iterable[str] = ()) -> None:
     """Remember which shape keys a bake has made on an object, and which of its own it has given curves."""
     keys = thing.data.shape_keys
-    keys[RECORD] = "\n".join(name for name in names if find_key(thing, name) is not None)
+    there = set(keys.key_blocks.keys())
+    keys[RECORD] = "\n".join(name for name in names if name in there)
     keys[MOVED] = "\n".join(moved)

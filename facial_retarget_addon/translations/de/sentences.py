@@ -174,6 +174,12 @@ SENTENCES = {
     "the pattern of names {} has no #, expected some where the frame's number goes": (
         "das Muster der Namen {} hat kein #; es steht, wo die Nummer des Bildes hingehört"
     ),
+    "the pattern of names {} has a line break, expected a single line": (
+        "das Muster der Namen {} hat einen Zeilenumbruch; es ist eine einzige Zeile"
+    ),
+    "object {} has a shape key {} of its own, which the bake would replace; expected another name": (
+        "Objekt {} hat einen eigenen Formschlüssel {}, den das Backen ersetzen würde; anders nennen"
+    ),
     "shape key {} has a name of {} bytes, expected at most {}": (
         "Formschlüssel {} hat einen Namen von {} Bytes; höchstens {} gehen"
     ),

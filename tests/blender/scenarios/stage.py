@@ -1,6 +1,6 @@
 """What the scenarios share: the installed extension, and small things to work on."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from importlib import import_module
 from types import ModuleType
@@ -113,6 +113,25 @@ def wave(thing: bpy.types.Object, count: int) -> np.ndarray:
     frames = np.repeat(basis[None], count, axis=0)
     frames[..., 2] += 0.1 * np.sin(time + 3 * basis[:, 0])
     return frames
+
+
+def bake_as(
+    face: bpy.types.Object,
+    kind: str,
+    frames: np.ndarray,
+    times: Sequence[float],
+    cache: object = "",
+    pattern: str = "frame_####",
+    **how: object,
+) -> dict[str, object]:
+    """Bake frames (F, V, 3) of a head as the button does; returns the figures."""
+    module, head = part("bridge.bakes.bake"), part("bridge.heads").read_head(face)
+    wish = module.Wish(part("core.methods.settings").BakeSettings(kind=kind, **how), pattern, str(cache))
+    prepared = part("bridge.background").finished(module.bake_steps(head, 1.0, frames, times, wish))
+    with part("bridge.bakes.scene_cache").let_go(prepared.files), part("files.whole").written_whole() as aside:
+        prepared.add_files(aside)
+    prepared.write()
+    return prepared.figures
 
 
 def shown(thing: bpy.types.Object) -> np.ndarray:
