@@ -9,6 +9,9 @@ from .core.methods.settings import CACHES
 PLENTY = 10_000_000
 """Vertex-frames from which shape keys for every frame are a burden: 120 MB in the file, as much again for each step of
 undo, and relative ones play slowly."""
+MANY_CURVES = 2_000
+"""Shape keys with a curve each from which a scene plays slower than seven frames a second: Blender looks the key of
+every curve up by its name, which takes 40 ms a frame for a thousand and seconds for ten thousand."""
 FEW_KEYS = 60
 """Shape keys that a compact bake makes at most of most performances."""
 
@@ -42,5 +45,6 @@ def bake_cost(kind: str, vertices: int, frames: int, step: float = 1.0) -> Cost:
         return Cost(12 * vertices * min(FEW_KEYS, baked) / 1e6, 0.0)
     if kind == "rig":
         return Cost(0.0, 0.0)
-    advice = "For so much, Compact Shape Keys or a cache fit better" if vertices * baked > PLENTY else ""
+    burden = vertices * baked > PLENTY or (kind == "frames" and baked > MANY_CURVES)
+    advice = "For so much, Compact Shape Keys or a cache fit better" if burden else ""
     return Cost(whole, 0.0, advice)

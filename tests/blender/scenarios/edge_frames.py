@@ -92,5 +92,14 @@ def ten_thousand_frames() -> None:
             assert len(curves) == MANY
 
 
+def the_panel_warns_of_thousands_of_keys() -> None:
+    """However few vertices each of them has: Blender plays so many curves slowly. Absolute keys have one."""
+    cost = part("bake_cost").bake_cost
+    assert "fit better" in cost("frames", 400, MANY).advice
+    assert not cost("frames", 400, 1_000).advice
+    assert not cost("absolute", 400, MANY).advice
+
+
 few_frames_and_still_ones()
+the_panel_warns_of_thousands_of_keys()
 ten_thousand_frames()
