@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -17,16 +16,11 @@ from ...core.errors import RetargetError
 from ...files.frames import FrameBlocks
 from ...files.whole import Aside
 from ..curves import ensure_curves, write_curve
+from ..exporter_files import check_room, is_complete
 from ..meshes import read_polygons, replace_geometry
 
 ROOT = "/root"
 """Where the objects of a USD file lie."""
-ALEMBIC_DONE = b"Ogawa\xff"
-"""How an Alembic file starts that was written to its end."""
-USD = b"PXR-USDC"
-"""How a USD file starts."""
-MORE = 1_000_000
-"""Bytes of a file that are no vertices, at most of most."""
 LONGEST = 40
 """Letters of an object's name that are kept inside a file."""
 
@@ -70,25 +64,15 @@ def add_scene_cache(aside: Aside, path: Path, played: Sequence[Played], step: fl
     RetargetError : if Blender cannot write it.
     """
     place = aside.place(path)
-    _check_room(place, sum(12 * frames.shape[0] * frames.shape[1] for _, _, frames in played))
+    check_room(place, sum(12 * frames.shape[0] * frames.shape[1] for _, _, frames in played))
     with _stage(played, step) as (scene, meshes), _shown(scene, meshes):
         try:
             with bpy.context.temp_override(scene=scene, view_layer=scene.view_layers[0]):
                 _export(place, len(played[0].frames))
         except RuntimeError as error:
             raise RetargetError(f"{path} cannot be written: {str(error).strip()}") from error
-    if not _is_complete(place):
+    if not is_complete(place):
         raise RetargetError(f"{path} cannot be written: Blender did not get to its end; the disk may be full")
-
-
-def _check_room(place: Path, size: int) -> None:
-    """OSError if there is no room for a file: Blender's Alembic exporter ends Blender where a disk is full."""
-    with open(place, "xb") as file:
-        if hasattr(os, "posix_fallocate"):
-            os.posix_fallocate(file.fileno(), 0, size + size // 50 + MORE)
-        else:  # on Windows a file has its room once it has its length
-            file.truncate(size + size // 50 + MORE)
-    place.unlink()
 
 
 @contextmanager
@@ -181,19 +165,6 @@ def _export(path: Path, count: int) -> None:
             convert_world_material=False,
             evaluation_mode="VIEWPORT",
         )
-
-
-def _is_complete(path: Path) -> bool:
-    """Whether a file was written to its end: neither exporter says when the disk is full."""
-    if not path.is_file():
-        return False
-    with open(path, "rb") as file:
-        head = file.read(24)
-        size = file.seek(0, 2)
-    if path.suffix == ".abc":
-        return head.startswith(ALEMBIC_DONE)
-    # After the signature and eight bytes of version comes where the table of contents starts, at the very end.
-    return head.startswith(USD) and 24 <= int.from_bytes(head[16:24], "little") < size
 
 
 def load_cache(path: Path, times: Sequence[float], step: float) -> CacheFile:
