@@ -15,7 +15,9 @@ from ...export_losses import FORMATS, UNSAMPLED, Loss, export_losses, own_keys, 
 from ...files.whole import check_place, written_whole
 from ..background import Steps, part
 from ..bakes.times import FrameTimes
+from ..exporter_files import check_room
 from ..heads import head_parts
+from ..key_sets import LONGEST, shortened
 from ..performance import check_visible, frame_kept, is_shown
 from ..scene.local_views import show_with
 from ..scene.selection import select_only, selected_alone
@@ -25,6 +27,8 @@ from .key_values import KeyValues, read_key_values, samples_per_frame
 
 COLLECTION = "Export"
 """Where prepared copies lie."""
+ENDING = "_export"
+"""What their names end in."""
 MOST_STRETCHED = 900
 """Blender's limit of a scene's time remapping."""
 
@@ -119,7 +123,7 @@ def prepare_steps(context: Context, face: Object, samples: int = 0) -> Steps[lis
     copies = copy_head(things, _collection(scene))
     make_plain(things, copies, times, values, {})
     for thing, copy in zip(things, copies, strict=True):
-        copy.name = copy.data.name = f"{thing.name}_export"
+        copy.name = copy.data.name = f"{shortened(thing.name, LONGEST - len(ENDING))}{ENDING}"
         copy.facial_retarget.prepared_from, copy.display_type = thing, "BOUNDS"
         show_with(copy, thing)
     select_only(context.view_layer, copies)
@@ -177,7 +181,16 @@ def _write(context: Context, copies: Sequence[Object], wish: ExportWish, samples
         selected_alone(context, [*copies, *shown]),
     ):
         first, last = context.scene.frame_start, context.scene.frame_end
-        write_selected(wish.form, aside.place(wish.path), first, last, samples, wish.points)
+        place = aside.place(wish.path)
+        if wish.form == "ALEMBIC":
+            check_room(place, ((last - first) * samples + 1) * sum(_frame_size(context, copy) for copy in copies))
+        write_selected(wish.form, place, first, last, samples, wish.points)
+
+
+def _frame_size(context: Context, thing: Object) -> int:
+    """Bytes of an object at one frame in an Alembic file: its vertices, and the normals that an artist has made."""
+    mesh = thing.evaluated_get(context.evaluated_depsgraph_get()).data
+    return 12 * (len(mesh.vertices) + (len(mesh.loops) if mesh.has_custom_normals else 0))
 
 
 @contextmanager

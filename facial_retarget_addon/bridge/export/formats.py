@@ -9,6 +9,7 @@ import bpy
 
 from ...core.errors import RetargetError
 from ...export_losses import FORMATS
+from ..exporter_files import is_complete
 
 SUFFIXES = {"GLTF": (".glb",), "FBX": (".fbx",), "USD": (".usdc", ".usda", ".usd"), "ALEMBIC": (".abc",)}
 """Format -> suffixes of its files, the usual one first."""
@@ -37,10 +38,17 @@ def write_selected(form: str, path: Path, first: int, last: int, samples: int, p
     try:
         done = _call(form, str(path), first, last, samples, points)
     except RuntimeError as error:
-        said = str(error).strip().splitlines()[-1].removeprefix("Error: ")
-        raise RetargetError(f"Blender's {FORMATS[form]} exporter has failed: {said}") from error
+        raise RetargetError(f"Blender's {FORMATS[form]} exporter has failed: {_said(error)}") from error
     if done != {"FINISHED"} or not path.is_file():
         raise RetargetError(f"Blender's {FORMATS[form]} exporter has written nothing")
+    if form in ("USD", "ALEMBIC") and not is_complete(path):
+        raise RetargetError(f"Blender's {FORMATS[form]} exporter did not get to its end; the disk may be full")
+
+
+def _said(error: RuntimeError) -> str:
+    """What an exporter said at last; below a Python error Blender tells a place in its code."""
+    lines = [line for line in str(error).splitlines() if line.strip() and not line.startswith("Location: ")]
+    return lines[-1].removeprefix("Error: ")
 
 
 def _call(form: str, path: str, first: int, last: int, samples: int, points: bool) -> set[str]:
@@ -64,5 +72,6 @@ def _call(form: str, path: str, first: int, last: int, samples: int, points: boo
         return bpy.ops.wm.usd_export(
             filepath=path, selected_objects_only=True, **skeletons, **names, **subdivided, **seen
         )
-    rates = {"start": first, "end": last, "xsamples": samples, "gsamples": samples, "apply_subdiv": True}
-    return bpy.ops.wm.alembic_export(filepath=path, selected=True, **rates, **seen)
+    rates = {"start": first, "end": last, "xsamples": samples, "gsamples": samples}
+    whole = {"apply_subdiv": True, "vcolors": True}
+    return bpy.ops.wm.alembic_export(filepath=path, selected=True, **rates, **whole, **seen)

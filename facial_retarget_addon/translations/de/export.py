@@ -106,6 +106,9 @@ SENTENCES = {
         "{} ist kein Name für {}, erwartet wird einer, der auf {} endet"
     ),
     "Blender's {} exporter has failed: {}": "Blenders {}-Exporter ist gescheitert: {}",
+    "Blender's {} exporter did not get to its end; the disk may be full": (
+        "Blenders {}-Exporter kam nicht bis zum Ende; vielleicht ist die Festplatte voll"
+    ),
     "Blender's {} exporter has written nothing": "Blenders {}-Exporter hat nichts geschrieben",
     "{} would lose something of {}, and nothing was written": (
         "{} würde etwas von {} verlieren: nichts wurde geschrieben"

@@ -1,6 +1,8 @@
 """A head through all four formats and back, prepared for others, and what is said before something is lost."""
 
 import re
+import resource
+import signal
 import sys
 from pathlib import Path
 from typing import NamedTuple
@@ -429,6 +431,26 @@ def what_is_lost_is_said_before_anything_is_written() -> None:
     assert bpy.ops.facial_retarget.export_fbx(filepath=str(path), only_lossless=True) == {"FINISHED"}
 
 
+def a_full_disk_leaves_an_earlier_file_and_blender_alive() -> None:
+    """Blender's USD exporter says nothing of it, its Alembic exporter would end Blender."""
+    head()
+    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    for form, suffix in FORMATS.items():
+        path = FOLDER / f"full.{suffix}"
+        path.write_text("an earlier file")
+        before, files = everything(), set(FOLDER.iterdir())
+        resource.setrlimit(resource.RLIMIT_FSIZE, (10_000, limits[1]))
+        try:
+            with refused("full.abc cannot be written" if form == "alembic" else "exporter"):
+                getattr(bpy.ops.facial_retarget, f"export_{form}")(filepath=str(path))
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+        assert not differences(before, everything()), differences(before, everything())
+        assert set(FOLDER.iterdir()) == files
+        assert path.read_text() == "an earlier file"
+
+
 def a_prepared_head_is_plain_and_moves_alike() -> None:
     """Keys relative to the Basis, each keyed from the first frame to the last, in one action, without drivers."""
     things = head()
@@ -471,4 +493,5 @@ keys_and_motion_survive_every_format()
 armatures_go_along_and_other_modifiers_stay_behind()
 caches_and_absolute_keys_are_exported_as_far_as_they_go()
 what_is_lost_is_said_before_anything_is_written()
+a_full_disk_leaves_an_earlier_file_and_blender_alive()
 a_prepared_head_is_plain_and_moves_alike()
