@@ -51,8 +51,10 @@ class FACIAL_RETARGET_PT_bake(RetargetTab, Panel):
         if bake.how.kind in CACHES:
             layout.prop(bake, "cache")
         layout.prop(bake, "step")
+        layout.prop(bake, "earlier")
         if task.target is not None:
             draw_cost(layout, context)
+            draw_bakes(layout, context)
 
 
 SETTINGS_OF = {"compact": ("tolerance",), "rig": ("smoothness", "sparsity", "residual")}
@@ -71,6 +73,24 @@ def draw_cost(layout: UILayout, context: Context) -> None:
         draw_text(layout, context, filled("At most {size:.0f} MB in the file", size=cost.file), icon="FILE_BLEND")
     if cost.advice:
         draw_text(layout, context, filled(cost.advice), icon="ERROR")
+
+
+def draw_bakes(layout: UILayout, context: Context) -> None:
+    """The bake that the target plays, and the earlier ones that it keeps."""
+    task = context.scene.facial_retarget
+    face = task.target.facial_retarget
+    kinds = {item.identifier: item.name for item in task.bake.how.bl_rna.properties["kind"].enum_items}
+    column = layout.column(align=True)
+    if face.bake:
+        row = column.row(align=True)
+        row.label(text=filled("Plays: {kind}", kind=filled(kinds[face.bake])), icon="PLAY", translate=False)
+        row.operator("facial_retarget.remove_bake", text="", icon="X").number = 0
+    for kept in face.kept_bakes:
+        row = column.row(align=True)
+        row.prop(kept, "name", text="")
+        row.label(text=kinds[kept.kind])
+        row.operator("facial_retarget.play_bake", text="", icon="PLAY").number = kept.number
+        row.operator("facial_retarget.remove_bake", text="", icon="X").number = kept.number
 
 
 class FACIAL_RETARGET_PT_settings(RetargetTab, Panel):

@@ -10,7 +10,7 @@ from bpy.types import Object, ShapeKey
 
 from ..core.arrays import FloatArray
 from ..core.errors import RetargetError
-from .bakes.names import baked_keys
+from .bakes.names import baked_keys, kept_keys
 from .shape_keys import PREVIEW_KEY, ensure_basis, ensure_key, find_key, key_displacement, write_key
 
 LONGEST = 63
@@ -55,7 +55,7 @@ def check_targets(sources: Collection[Object], targets: Collection[Object], over
     holders = {thing.data.name_full: thing for thing in sources}
     for thing in targets:
         check_local(thing)
-        if not over_bake or set(key_names(thing)) - set(baked_keys(thing)):
+        if not over_bake or set(key_names(thing)) - {*baked_keys(thing), *kept_keys(thing)}:
             check_relative(thing)
         mesh = thing.data.name_full
         if mesh in holders:

@@ -4,9 +4,39 @@ import bpy
 from bpy.props import PointerProperty
 from bpy.types import Object, Scene, WindowManager
 
-from . import bakes, cloning, examples, export, face, findings, methods, normal_maps, overlay, parts, points, task, work
+from . import (
+    bakes,
+    cloning,
+    examples,
+    export,
+    face,
+    findings,
+    kept_bakes,
+    methods,
+    normal_maps,
+    overlay,
+    parts,
+    points,
+    task,
+    work,
+)
 
-MODULES = (points, parts, cloning, findings, face, examples, methods, bakes, export, normal_maps, overlay, task, work)
+MODULES = (
+    points,
+    parts,
+    cloning,
+    kept_bakes,
+    findings,
+    face,
+    examples,
+    methods,
+    bakes,
+    export,
+    normal_maps,
+    overlay,
+    task,
+    work,
+)
 """Every module comes after those whose groups it holds."""
 
 _register_classes, _unregister_classes = bpy.utils.register_classes_factory(

@@ -65,6 +65,14 @@ class FACIAL_RETARGET_PG_bake(PropertyGroup):
         default=FRAME_NAMES,
         description="Names of the shape keys of frames: the frame's number stands in place of the #",
     )
+    earlier: EnumProperty(
+        name="Earlier Bake",
+        description="What becomes of the bake that the target plays now",
+        items=[
+            ("replace", "Replace", "Its shape keys, curves and modifiers go"),
+            ("keep", "Keep", "It stays, turned off: play it again below. A cache gets a file of its own"),
+        ],
+    )
     cache: StringProperty(name="Cache", subtype="FILE_PATH", description="File that the cache becomes")
 
 

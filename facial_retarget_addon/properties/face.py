@@ -7,6 +7,7 @@ from ..core.point_sets import POINT_SETS, next_point
 from ..translations import OURS
 from .cloning import FACIAL_RETARGET_PG_cloned_key
 from .findings import FACIAL_RETARGET_PG_finding
+from .kept_bakes import FACIAL_RETARGET_PG_kept_bake
 from .parts import FACIAL_RETARGET_PG_part
 from .points import POINT_LISTS, POINT_SET_ITEMS, FACIAL_RETARGET_PG_feature_point, FACIAL_RETARGET_PG_point_name
 
@@ -82,6 +83,7 @@ class FACIAL_RETARGET_PG_face(PropertyGroup):
     shown_key: StringProperty(name="Shown Shape Key", description="The shape key that a click in the list has set to 1")
     head: PointerProperty(name="Head", type=Object, description="The empty that shows how the head turns")
     prepared_from: PointerProperty(name="Prepared From", type=Object, description="What this copy was prepared from")
+    kept_bakes: CollectionProperty(type=FACIAL_RETARGET_PG_kept_bake, description="Earlier bakes that are kept")
     bake: StringProperty(name="Bake", description="The kind of the bake that the face plays; empty for none")
 
     @property

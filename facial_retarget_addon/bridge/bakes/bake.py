@@ -18,15 +18,20 @@ from ..paths import chosen_path
 from ..settings import read_group
 from .cache import add_caches, cache_places, play_caches, with_suffix
 from .frames import check_frames, write_head_frames
+from .kept import free_file, keep_bake
 from .keyed import check_keyed, rig_keys, write_keyed
 
 
 class Wish(NamedTuple):
-    """What the artist wants of a bake: its settings, the pattern of frames' names, and where a cache goes."""
+    """What the artist wants of a bake: its settings, the pattern of frames' names, where a cache goes.
+
+    keep : whether the bake that the head plays now stays, turned off.
+    """
 
     settings: BakeSettings
     pattern: str
     cache: str
+    keep: bool = False
 
     def cache_path(self) -> Path:
         """The cache's file, absolute, with the kind's suffix.
@@ -40,7 +45,9 @@ class Wish(NamedTuple):
 
 def read_wish(task: PropertyGroup) -> Wish:
     """The panel's."""
-    return Wish(read_group(BakeSettings, task.bake.how), task.bake.pattern, task.bake.cache)
+    return Wish(
+        read_group(BakeSettings, task.bake.how), task.bake.pattern, task.bake.cache, task.bake.earlier == "keep"
+    )
 
 
 class PreparedBake(NamedTuple):
@@ -57,7 +64,7 @@ class PreparedBake(NamedTuple):
 
 
 def bake_steps(head: Head, unit: float, frames: FloatArray, times: Sequence[float], wish: Wish) -> Steps[PreparedBake]:
-    """Prepare a bake of frames (F, V, 3) of a head as the wish has it; it will replace an earlier one of any kind.
+    """Prepare a bake of frames (F, V, 3) of a head as the wish has it; it replaces or keeps an earlier one of any kind.
 
     Parameters
     ----------
@@ -71,25 +78,25 @@ def bake_steps(head: Head, unit: float, frames: FloatArray, times: Sequence[floa
     figures: dict[str, Any] = {"kind": kind, "frames": len(frames)}
     yield 0.0, "Preparing the bake"
     if kind in CACHES:
-        places = cache_places(head, wish.cache_path(), frames)
+        places = cache_places(head, free_file(head.things, wish.cache_path(), wish.keep), frames)
         return PreparedBake(
             figures,
             [place.path for place in places.values()],
             lambda aside: add_caches(aside, head, places, frames, times),
-            lambda: _write(head, kind, lambda: play_caches(head, places, times)),
+            lambda: _write(head, wish, lambda: play_caches(head, places, times)),
         )
     if kind in ("compact", "rig"):
         baked = yield from _keyed_steps(head, unit, frames, wish.settings)
         check_keyed(head, baked)
         figures |= baked.figures(unit)
-        return PreparedBake(figures, [], _no_files, lambda: _write(head, kind, lambda: write_keyed(head, baked, times)))
+        return PreparedBake(figures, [], _no_files, lambda: _write(head, wish, lambda: write_keyed(head, baked, times)))
     check_frames(head, frames, times, wish.pattern, absolute=kind == "absolute")
     figures["keys"] = len(frames)
     return PreparedBake(
         figures,
         [],
         _no_files,
-        lambda: _write(head, kind, lambda: write_head_frames(head, frames, times, wish.pattern, kind == "absolute")),
+        lambda: _write(head, wish, lambda: write_head_frames(head, frames, times, wish.pattern, kind == "absolute")),
     )
 
 
@@ -97,9 +104,11 @@ def _no_files(_: Aside) -> None:
     """Nothing on disk."""
 
 
-def _write(head: Head, kind: str, write: Callable[[], None]) -> None:
+def _write(head: Head, wish: Wish, write: Callable[[], None]) -> None:
+    if wish.keep:
+        keep_bake(head.things)
     write()
-    head.things[0].facial_retarget.bake = kind
+    head.things[0].facial_retarget.bake = wish.settings.kind
 
 
 def _keyed_steps(head: Head, unit: float, frames: FloatArray, settings: BakeSettings) -> Steps[BakedKeys]:

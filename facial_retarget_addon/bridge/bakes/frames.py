@@ -16,7 +16,7 @@ from ..heads import Head
 from ..key_sets import key_names
 from ..meshes import from_face_space
 from ..shape_keys import ensure_basis, ensure_keys, remove_keys, value_path, write_key
-from .names import baked_keys, cache_modifier, check_free, frame_key_name, moved_keys, record_bake
+from .names import baked_keys, cache_modifier, check_free, frame_key_name, kept_keys, moved_keys, record_bake
 from .scene_cache import drop_cache
 
 STILL = 1e-6
@@ -76,7 +76,7 @@ def check_frames(head: Head, frames: FloatArray, times: Sequence[float], pattern
     _check_count(head.things[0], frames[:, : head.starts[1]])
     moved = moved_objects(head, frames)
     for thing in moved:
-        _check_own_keys(thing, absolute)
+        check_own_keys(thing, absolute)
     names = [frame_key_name(pattern, time) for time in times]
     for thing in moved:
         check_free(thing, names)
@@ -134,8 +134,10 @@ def _check_count(thing: Object, frames: FloatArray) -> None:
         )
 
 
-def _check_own_keys(thing: Object, absolute: bool) -> None:
-    own = [name for name in key_names(thing) if name not in baked_keys(thing)]
+def check_own_keys(thing: Object, absolute: bool) -> None:
+    """RetargetError if absolute keys would turn off shape keys of an object that no bake has made."""
+    of_bakes = {*baked_keys(thing), *kept_keys(thing)}
+    own = [name for name in key_names(thing) if name not in of_bakes]
     if absolute and own:
         raise RetargetError(
             f"object {thing.name!r} has shape keys of its own, {own[0]!r} among them, which absolute keys would turn "

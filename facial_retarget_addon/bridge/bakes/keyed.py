@@ -13,7 +13,7 @@ from ..curves import ensure_curves, remove_curves, write_curve
 from ..heads import Head
 from ..shape_keys import ensure_key, find_key, value_path, write_key
 from .frames import STILL, remove_bake
-from .names import baked_keys, check_free, record_bake
+from .names import baked_keys, check_free, kept_keys, record_bake
 
 
 def rig_keys(head: Head) -> RigKeys:
@@ -23,7 +23,7 @@ def rig_keys(head: Head) -> RigKeys:
     ------
     RetargetError : if there is none.
     """
-    baked = {name for thing in head.things for name in baked_keys(thing)}
+    baked = {name for thing in head.things for name in (*baked_keys(thing), *kept_keys(thing))}
     driven = {curve.data_path for thing in head.things for curve in _drivers(thing)}
     names = [name for name in head.key_names() if name not in baked and value_path(name) not in driven]
     names = [name for name in names if not find_key(head.owner(name), name).mute]

@@ -61,6 +61,11 @@ def check_free(thing: Object, names: Iterable[str]) -> None:
         )
 
 
+def kept_keys(thing: Object) -> list[str]:
+    """Names of an object's shape keys that belong to earlier bakes which are kept, muted."""
+    return [name for item in thing.facial_retarget.kept_bakes for name in item.kept.split("\n") if name]
+
+
 def moved_keys(thing: Object) -> list[str]:
     """Names of an object's own shape keys that a bake has given curves."""
     keys = thing.data.shape_keys

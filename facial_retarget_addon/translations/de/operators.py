@@ -328,6 +328,17 @@ TEXTS = {
     "Scene frames from one exported frame to the next; below 1 for sub-frames": (
         "Bilder der Szene von einem exportierten Bild zum nächsten; unter 1 für Zwischenbilder"
     ),
+    "The target has no bake": "Das Ziel hat nichts Gebackenes",
+    "Play Bake": "Gebackenes abspielen",
+    "Play this earlier bake again; the one that plays now is kept": (
+        "Dieses früher Gebackene wieder abspielen; was jetzt spielt, bleibt erhalten"
+    ),
+    "Remove Bake": "Gebackenes entfernen",
+    "Remove this bake: its shape keys, curves and modifiers; files of a cache stay, and other bakes": (
+        "Dieses Gebackene entfernen: seine Formschlüssel, Kurven und Modifikatoren; Dateien eines Zwischenspeichers "
+        "bleiben, und anderes Gebackenes"
+    ),
+    "Which kept bake; 0 for the one that plays": "Welches behaltene Gebackene; 0 für das, was spielt",
     "The target has no shape keys: bake the performance as some": (
         "Das Ziel hat keine Formschlüssel: die Darbietung als solche backen"
     ),

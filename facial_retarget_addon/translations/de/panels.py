@@ -68,6 +68,7 @@ TEXTS = {
     ),
     "Sculpt": "Formen",
     # Retargeting, its preview and its bake.
+    "Plays: {kind}": "Spielt: {kind}",
     "Frames": "Bilder",
     "to": "bis",
     "{size:.0f} MB on disk": "{size:.0f} MB auf der Platte",

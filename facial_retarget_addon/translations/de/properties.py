@@ -245,6 +245,30 @@ TEXTS = {
     ),
     "Cache": "Zwischenspeicher",
     "File that the cache becomes": "Datei, die der Zwischenspeicher wird",
+    "Earlier Bake": "Früher Gebackenes",
+    "What becomes of the bake that the target plays now": "Was aus dem wird, was das Ziel jetzt abspielt",
+    "Its shape keys, curves and modifiers go": "Seine Formschlüssel, Kurven und Modifikatoren gehen",
+    "It stays, turned off: play it again below. A cache gets a file of its own": (
+        "Es bleibt, abgeschaltet: unten wieder abspielen. Ein Zwischenspeicher bekommt eine eigene Datei"
+    ),
+    "Earlier bakes that are kept": "Früher Gebackenes, das behalten wird",
+    "Name of the earlier bake": "Name des früher Gebackenen",
+    "What the earlier bake is called on every object of the head": (
+        "Wie das früher Gebackene auf jedem Objekt des Kopfes heißt"
+    ),
+    "What the frames became": "Was aus den Bildern wurde",
+    "Names of its shape keys while it plays": "Namen seiner Formschlüssel, während es spielt",
+    "Kept Shape Keys": "Behaltene Formschlüssel",
+    "Kept Action": "Behaltene Aktion",
+    "Kept Slot": "Behaltener Slot",
+    "Kept Modifier": "Behaltener Modifikator",
+    "Names of the same shape keys now, muted": "Namen derselben Formschlüssel jetzt, stumm geschaltet",
+    "Names of the object's own shape keys that it moves": "Namen der eigenen Formschlüssel des Objekts, die es bewegt",
+    "Its curves while it does not play": "Seine Kurven, während es nicht spielt",
+    "The slot of the action that has the object's curves": "Der Slot der Aktion, der die Kurven des Objekts hat",
+    "Name of the modifier that plays its cache, turned off": (
+        "Name des Modifikators, der seinen Zwischenspeicher abspielt, abgeschaltet"
+    ),
     "The kind of the bake that the face plays; empty for none": (
         "Die Art des Backens, die das Gesicht abspielt; leer für keine"
     ),

@@ -160,6 +160,10 @@ SENTENCES = {
     ),
     "the frame range ends at {} before it starts at {}": "der Bildbereich endet bei {}, bevor er bei {} beginnt",
     # Bakes.
+    "object {} keeps no earlier bake of number {}": "Objekt {} behält kein früheres Gebackenes mit der Nummer {}",
+    "object {} plays no bake, expected one to remove": "Objekt {} spielt nichts Gebackenes, das man entfernen könnte",
+    "shape key {} of {} is gone from object {}": "Formschlüssel {} von {} fehlt in Objekt {}",
+    "modifier {} of {} is gone from object {}": "Modifikator {} von {} fehlt in Objekt {}",
     "frames of {} vertices arrived for object {}, expected its {}": (
         "Bilder mit {} Eckpunkten sind für Objekt {} angekommen; es hat {}"
     ),
