@@ -62,9 +62,17 @@ def scenario():
     assert len(baked(target())) == FRAMES, baked(target())
 
     file = OUT / "child.glb"
-    yield from export(file)
+    yield from open_section("5. Bake and Export")
+    yield from export("facial_retarget.export_gltf", file)
     names = morph_names(file)
     assert names == baked(target()), names[:20]
+
+    table = OUT / "child.csv"
+    yield from export("facial_retarget.export_curves", table)
+    head, *lines = table.read_text().splitlines()
+    assert head == ",".join(["frame", "time", *names]), head
+    assert [line.partition(",")[0] for line in lines] == [str(30 + frame) for frame in range(FRAMES)], lines
+    assert all(line.split(",")[2 + row] == "1.0" for row, line in enumerate(lines)), lines
 
     before = snapshot()
     yield from press_button("facial_retarget.prepare_export")
@@ -78,26 +86,25 @@ def scenario():
     check_unchanged(before)
 
 
-def export(file):
+def export(button, file):
     """As an artist does: read what is lost, press the button, name the file in the browser that opens."""
     before = snapshot()
     bpy.context.preferences.view.filebrowser_display_type = "SCREEN"
-    yield from open_section("5. Bake and Export")
     yield from still()
-    screenshot("export_panel")
-    yield from press_button("facial_retarget.export_gltf")
+    screenshot(f"{file.suffix[1:]}_panel")
+    yield from press_button(button)
     yield from wait_until(lambda: window().screen.areas[0].type == "FILE_BROWSER", "the file browser")
     browser = window().screen.areas[0]
     browser.spaces.active.params.directory = bytes(file.parent)
     browser.spaces.active.params.filename = file.name
     yield from still()
-    screenshot("export_browser")
+    screenshot(f"{file.suffix[1:]}_browser")
     with override(browser):
         bpy.ops.file.execute("INVOKE_DEFAULT")
     yield from wait_until(file.exists, "the file", 30)
     yield from wait_until(lambda: not working(), "the operator ends", 10)
     yield from wait()
-    screenshot("exported")
+    screenshot(f"{file.suffix[1:]}_exported")
     check_unchanged(before)
 
 
