@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, fields
 
 from .core.methods.settings import SETTINGS, STRENGTHS
 
-COLUMNS = ("Torn", "Folds", "Lips%", "Lids%", "Fit s", "ms")
+COLUMNS = ("Torn", "Folds", "Lips", "Lids", "Fit s", "ms")
 """What is compared: torn edges and turned triangles of the mean frame, by how much lips and lids are open otherwise
 than the source's in percent, seconds of the fit, milliseconds of a frame.
 """

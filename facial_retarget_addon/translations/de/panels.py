@@ -79,8 +79,6 @@ TEXTS = {
     "{milliseconds:.1f} ms a frame": "{milliseconds:.1f} ms je Bild",
     "Torn": "Riss",
     "Folds": "Falte",
-    "Lips%": "Lip%",
-    "Lids%": "Lid%",
     "Fit s": "Fit s",
     "ms": "ms",
     "Regions": "Bereiche",
