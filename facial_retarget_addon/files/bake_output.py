@@ -13,22 +13,28 @@ from ..core.arrays import FloatArray, Progress, no_progress
 from ..core.base.regions import eye_separation
 from ..core.errors import RetargetError
 from ..core.methods.settings import BakeSettings, read_values
+from ..core.mpeg4.conversions import stream_of_values
+from ..core.mpeg4.faps import FAPS
+from ..core.mpeg4.stream import FapStream
 from ..core.problem import Face
 from ..core.reduction.bake_keys import BakedKeys, RigKeys, check_rig, compact_keys, onto_rig
+from ..core.shapes.parameters import parameter_of
 from ..core.shapes.shape_set import ShapeSet
 from .curves import Curves, add_curves, check_curves_place
 from .documents import Table
 from .job_values import read_optional_path, read_texts, relative, toml
 from .mesh_file import MeshFile
+from .motion.fap import add_fap
+from .motion.rates import checked_rate
 from .shape_files import add_shapes, check_shapes_place, read_shapes
-from .whole import Aside
+from .whole import Aside, check_place
 
 KINDS = ("compact", "rig")
 """Bakes that a job can do; frames themselves are its [output] frames."""
 NUMBERS = tuple(f for f in fields(BakeSettings) if f.name != "kind")
 """The settings of a bake besides its kind."""
-RANGE = (0.0, 1.0)
-"""Values that a shape of a rig may have, unless the job says otherwise."""
+_FAP = ".fap"
+"""Curves as the FAPs that the shapes of a rig are."""
 _PATHS = ("curves", "shapes", "rig", "ranges")
 """What the table has besides the settings."""
 
@@ -40,10 +46,10 @@ class BakeOutput:
     Attributes
     ----------
     settings : of a kind among `KINDS`.
-    curves : where the curves of all keys go, .csv or .json.
+    curves : where the curves of all keys go, .csv or .json; .fap where the rig's shapes are FAPs.
     shapes : where the new keys go; None where there are none.
     rig : the target's own shapes, which kind rig moves.
-    ranges : shape of the rig -> its lowest and highest value, where that is not `RANGE`.
+    ranges : shape of the rig -> its lowest and highest value, where that is not its `usual_range`.
     """
 
     settings: BakeSettings
@@ -56,6 +62,12 @@ class BakeOutput:
         """What is written: how the job file names it -> its path."""
         named = {f"[bake] curves {number}": path for number, path in enumerate(self.curves, start=1)}
         return named if self.shapes is None else {**named, "[bake] shapes": self.shapes}
+
+
+def usual_range(name: str) -> tuple[float, float]:
+    """Values that a shape of a rig may have, unless the job says otherwise: 0 to 1, a FAP of both ways -1 to 1."""
+    known = parameter_of(name)
+    return (known.low / known.high, 1.0)
 
 
 def read_bake(root: Table, folder: Path) -> BakeOutput | None:
@@ -106,6 +118,11 @@ def _contradictions(output: BakeOutput) -> list[str]:
         wrong.append("[bake] shapes is missing, expected a path for the new keys")
     if not makes and output.shapes is not None:
         wrong.append("[bake] shapes would hold nothing: kind = 'rig' has new keys where residual is above 0 alone")
+    faps = [path for path in output.curves if path.suffix.lower() == _FAP]
+    if faps and kind != "rig":
+        wrong.append(f"[bake] curves has {faps[0].name!r}, but kind = {kind!r} has no FAPs")
+    elif makes and faps == list(output.curves):
+        wrong.append("[bake] curves is FAPs alone, which leave out the new keys; expected a .csv or .json as well")
     return wrong
 
 
@@ -122,10 +139,14 @@ def bake_lines(output: BakeOutput, folder: Path) -> list[str]:
     return lines
 
 
-def check_bake_places(output: BakeOutput) -> None:
-    """RetargetError for the first output that cannot be written where the job says."""
+def check_bake_places(output: BakeOutput, fps: float) -> None:
+    """RetargetError for the first output that cannot be written where the job says, at so many frames a second."""
     for path in output.curves:
-        check_curves_place(path)
+        if path.suffix.lower() == _FAP:
+            check_place(path)
+            checked_rate(path, fps)
+        else:
+            check_curves_place(path)
     if output.shapes is not None:
         check_shapes_place(output.shapes)
 
@@ -135,7 +156,8 @@ def read_rig(output: BakeOutput, target: MeshFile) -> RigKeys | None:
 
     Raises
     ------
-    RetargetError : as `read_shapes` and `check_rig`; for a range of a shape that is not among them.
+    RetargetError : as `read_shapes` and `check_rig`; for a range of a shape that is not among them; for a shape that is
+        no FAP where curves go to a .fap.
     """
     if output.rig is None:
         return None
@@ -143,7 +165,10 @@ def read_rig(output: BakeOutput, target: MeshFile) -> RigKeys | None:
     unknown = sorted(set(output.ranges) - set(shapes.names))
     if unknown:
         raise RetargetError(f"[bake] ranges has a shape {unknown[0]!r}, which {output.rig} lacks")
-    ends = np.array([output.ranges.get(name, RANGE) for name in shapes.names])
+    others = [name for name in shapes.names if parameter_of(name).kind != "fap"]
+    if others and any(path.suffix.lower() == _FAP for path in output.curves):
+        raise RetargetError(f"{output.rig}: shape {others[0]!r} is no FAP, expected such alone for curves in a {_FAP}")
+    ends = np.array([output.ranges.get(name, usual_range(name)) for name in shapes.names])
     rig = RigKeys(shapes.names, shapes.displacements, ends[:, 0], ends[:, 1])
     try:
         check_rig(rig, output.settings)
@@ -178,8 +203,21 @@ def add_bake(aside: Aside, output: BakeOutput, baked: BakedKeys, neutral: MeshFi
     """
     curves = Curves(baked.names, frames, baked.keyed.curves, fps)
     for path in output.curves:
-        add_curves(aside, curves, path)
+        if path.suffix.lower() == _FAP:
+            add_fap(aside, _faps(path.stem, baked, fps / frames.step), path)
+        else:
+            add_curves(aside, curves, path)
     if output.shapes is not None:
         first = len(baked.names) - baked.made
         new = ShapeSet(baked.names[first:], baked.keyed.shapes[first:])
         add_shapes(aside, new, output.shapes, neutral)
+
+
+def _faps(name: str, baked: BakedKeys, fps: float) -> FapStream:
+    """The curves of a rig of FAPs as a stream."""
+    values, used = np.zeros((len(baked.keyed.curves), len(FAPS))), np.zeros(len(FAPS), bool)
+    for shape, curve in zip(baked.names[: len(baked.names) - baked.made], baked.keyed.curves.T, strict=False):
+        parameter = parameter_of(shape)
+        column = int(parameter.key) - 1
+        values[:, column], used[column] = parameter.high * curve, True
+    return stream_of_values(name, fps, values, used)

@@ -177,7 +177,7 @@ def _read(job: Job) -> tuple[Inputs | None, list[str]]:
         if output is not None:
             reading.attempt(check_place, output)
     if job.bake is not None:
-        reading.attempt(check_bake_places, job.bake)
+        reading.attempt(check_bake_places, job.bake, job.fps / job.chosen.step)
     if job.normal_maps is not None:
         reading.attempt(check_place, job.normal_maps.folder, suffix_of(job.normal_maps.settings.depth))
         if inputs is not None and not job.normal_maps.settings.level:

@@ -13,11 +13,14 @@ import pytest
 from facial_retarget_addon.cli import main
 from facial_retarget_addon.core.errors import RetargetError
 from facial_retarget_addon.core.methods.settings import BakeSettings, HierarchicalSettings
+from facial_retarget_addon.core.mpeg4.conversions import low_level, stream_of_values
+from facial_retarget_addon.core.mpeg4.faps import FAPS
 from facial_retarget_addon.files.bake_output import BakeOutput
 from facial_retarget_addon.files.frame_range import FrameRange
 from facial_retarget_addon.files.frames import read_frames, write_frames
 from facial_retarget_addon.files.job import OutputFiles, read_job, write_job
 from facial_retarget_addon.files.meshes import read_mesh
+from facial_retarget_addon.files.motion.fap import read_fap, write_fap
 from facial_retarget_addon.files.npz import write_arrays
 from facial_retarget_addon.files.shape_files import read_shapes
 
@@ -169,6 +172,32 @@ def test_the_page_shows_the_figures_without_those_of_each_frame(long_job):
     assert "per frame</th>" not in page
 
 
+def test_a_rig_of_faps_gives_faps_back(face, tmp_path):
+    """The built-in face plays a take; the same face's FAP shapes are fitted to it, and say the take again."""
+    shown = {"open_jaw": 600.0, "stretch_l_cornerlip": 180.0, "raise_l_i_eyebrow": 200.0, "squeeze_r_eyebrow": -80.0}
+    numbers = {fap.name: fap.number for fap in FAPS}
+    values = np.zeros((COUNT, len(FAPS)))
+    for name, most in shown.items():
+        values[:, numbers[name] - 1] = most * np.sin(np.linspace(0, 3, COUNT)).round(2)
+    write_fap(stream_of_values("take", 25.0, values), tmp_path / "take.fap")
+    for command in (
+        ["fap", str(tmp_path / "take.fap"), "--out", str(tmp_path / "frames.npz")],
+        ["shapes", "--set", "faps", "--out", str(tmp_path / "faps.json")],
+    ):
+        assert main([*command, *face.arguments, "--quiet"]) == 0
+    files = f'neutral = "{face.neutral.as_posix()}"\npoints = "{face.points.as_posix()}"\n'
+    (tmp_path / "job.toml").write_text(
+        f'version = 1\nmethod = "motion_cloning"\n[source]\n{files}frames = "frames.npz"\nfps = 25.0\n[target]\n{files}'
+        '[bake]\nkind = "rig"\nrig = "faps.json"\ncurves = ["back.fap"]\nsmoothness = 0.0\nsparsity = 0.0\n'
+    )
+    assert main(["run", str(tmp_path / "job.toml"), "--quiet"]) == 0
+    stream = read_fap(tmp_path / "back.fap")
+    back = low_level(stream)
+    assert stream.fps == 25.0
+    np.testing.assert_allclose(back, values, atol=1)
+    assert set(np.flatnonzero(np.ptp(back, axis=0) > 2) + 1) == {numbers[name] for name in shown}
+
+
 BAKE = '[bake]\nkind = "compact"\nshapes = "keys.npz"\ncurves = ["c.csv"]'
 
 
@@ -185,6 +214,12 @@ BAKE = '[bake]\nkind = "compact"\nshapes = "keys.npz"\ncurves = ["c.csv"]'
         ('"compact"', '"rig"', "[bake] rig is missing, expected the target's own shapes where kind = 'rig'"),
         ("[bake]\n", '[bake]\nrig = "rig.npz"\n', "[bake] rig says nothing where kind = 'compact'"),
         ('"compact"', '"rig"\nrig = "r"', "[bake] shapes would hold nothing"),
+        ('"c.csv"', '"c.fap"', "[bake] curves has 'c.fap', but kind = 'compact' has no FAPs"),
+        (
+            'kind = "compact"\nshapes = "keys.npz"\ncurves = ["c.csv"]',
+            'kind = "rig"\nrig = "r"\nresidual = 3\nshapes = "keys.npz"\ncurves = ["c.fap"]',
+            "[bake] curves is FAPs alone, which leave out the new keys; expected a .csv or .json as well",
+        ),
         ("[bake]\n", "[bake]\ntolerance = 2\n", "[bake] tolerance = 2: expected a number from 0.0001 to 0.5"),
         ("[bake]\n", "[bake]\ncolour = 2\n", "[bake] has no setting 'colour'"),
         ("[bake]\n", "[bake]\nranges = {a = [1, 0]}\n", "[bake] ranges 'a' = [1, 0], expected a lowest and a greater"),

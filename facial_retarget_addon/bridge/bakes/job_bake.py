@@ -11,7 +11,7 @@ from bpy.types import Object, PropertyGroup
 from ...core.methods.settings import BakeSettings
 from ...core.reduction.bake_keys import RigKeys
 from ...core.shapes.shape_set import ShapeSet
-from ...files.bake_output import KINDS, RANGE, BakeOutput
+from ...files.bake_output import KINDS, BakeOutput, usual_range
 from ...files.mesh_file import MeshFile
 from ...files.shape_files import add_shapes
 from ...files.whole import Aside
@@ -58,7 +58,7 @@ def _ranges(rig: RigKeys) -> dict[str, tuple[float, float]]:
         name: (float(str(np.float32(low))), float(str(np.float32(high))))
         for name, low, high in zip(rig.names, rig.low, rig.high, strict=True)
     }
-    return {name: pair for name, pair in ends.items() if pair != RANGE}
+    return {name: pair for name, pair in ends.items() if pair != usual_range(name)}
 
 
 def show_job_bake(
