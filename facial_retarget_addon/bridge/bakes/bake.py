@@ -6,9 +6,11 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import bpy
 from bpy.types import PropertyGroup
 
 from ...core.arrays import FloatArray, Progress
+from ...core.errors import RetargetError
 from ...core.methods.settings import CACHES, BakeSettings
 from ...core.reduction.bake_keys import BakedKeys, compact_keys, onto_rig
 from ...files.whole import Aside
@@ -38,16 +40,21 @@ class Wish(NamedTuple):
 
         Raises
         ------
-        RetargetError : as `chosen_path`.
+        RetargetError : as `chosen_path`, and if this Blender cannot write the kind.
         """
-        return with_suffix(chosen_path(self.cache, "file", "cache", "Bake and Export"), self.settings.kind)
+        kind = self.settings.kind
+        if not getattr(bpy.app.build_options, kind, True):
+            raise RetargetError(f"this Blender was built without {kind}, expected another kind of bake")
+        return with_suffix(chosen_path(self.cache, "file", "cache", "Bake and Export"), kind)
 
 
 def read_wish(task: PropertyGroup) -> Wish:
-    """The panel's."""
-    return Wish(
-        read_group(BakeSettings, task.bake.how), task.bake.pattern, task.bake.cache, task.bake.earlier == "keep"
-    )
+    """The panel's; RetargetError at once, before anything is computed, if a cache has no file or no exporter."""
+    bake = task.bake
+    wish = Wish(read_group(BakeSettings, bake.how), bake.pattern, bake.cache, bake.earlier == "keep")
+    if wish.settings.kind in CACHES:
+        wish.cache_path()
+    return wish
 
 
 class PreparedBake(NamedTuple):

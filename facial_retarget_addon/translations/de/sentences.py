@@ -184,6 +184,9 @@ SENTENCES = {
     "object {} has a shape key {} of its own, which the bake would replace; expected another name": (
         "Objekt {} hat einen eigenen Formschlüssel {}, den das Backen ersetzen würde; anders nennen"
     ),
+    "this Blender was built without {}, expected another kind of bake": (
+        "dieses Blender wurde ohne {} gebaut; anders backen"
+    ),
     "shape key {} has a name of {} bytes, expected at most {}": (
         "Formschlüssel {} hat einen Namen von {} Bytes; höchstens {} gehen"
     ),
