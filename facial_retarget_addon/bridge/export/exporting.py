@@ -182,13 +182,19 @@ def _write(context: Context, copies: Sequence[Object], wish: ExportWish, samples
     ):
         first, last = context.scene.frame_start, context.scene.frame_end
         place = aside.place(wish.path)
-        if wish.form == "ALEMBIC":
-            check_room(place, ((last - first) * samples + 1) * sum(_frame_size(context, copy) for copy in copies))
+        points = (last - first) * samples + 1 if wish.form == "ALEMBIC" or wish.points else 0
+        check_room(place, sum(_frame_size(context, copy) * (points or _shapes(copy)) for copy in copies))
         write_selected(wish.form, place, first, last, samples, wish.points)
 
 
+def _shapes(thing: Object) -> int:
+    """How many shapes an object has, its neutral among them."""
+    keys = getattr(thing.data, "shape_keys", None)
+    return 1 if keys is None else len(keys.key_blocks)
+
+
 def _frame_size(context: Context, thing: Object) -> int:
-    """Bytes of an object at one frame in an Alembic file: its vertices, and the normals that an artist has made."""
+    """Bytes of an object at one frame, or as one shape, in a file: its vertices, and normals of the artist's own."""
     mesh = thing.evaluated_get(context.evaluated_depsgraph_get()).data
     return 12 * (len(mesh.vertices) + (len(mesh.loops) if mesh.has_custom_normals else 0))
 

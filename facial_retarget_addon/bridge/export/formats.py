@@ -38,11 +38,16 @@ def write_selected(form: str, path: Path, first: int, last: int, samples: int, p
     try:
         done = _call(form, str(path), first, last, samples, points)
     except RuntimeError as error:
-        raise RetargetError(f"Blender's {FORMATS[form]} exporter has failed: {_said(error)}") from error
+        said = _said(error)
+        raise RetargetError(
+            f"{path} cannot be written: Blender's {FORMATS[form]} exporter has failed: {said}"
+        ) from error
     if done != {"FINISHED"} or not path.is_file():
-        raise RetargetError(f"Blender's {FORMATS[form]} exporter has written nothing")
+        raise RetargetError(f"{path} cannot be written: Blender's {FORMATS[form]} exporter has written nothing")
     if form in ("USD", "ALEMBIC") and not is_complete(path):
-        raise RetargetError(f"Blender's {FORMATS[form]} exporter did not get to its end; the disk may be full")
+        raise RetargetError(
+            f"{path} cannot be written: Blender's {FORMATS[form]} exporter did not get to its end; the disk may be full"
+        )
 
 
 def _said(error: RuntimeError) -> str:

@@ -105,11 +105,15 @@ SENTENCES = {
     "{} is no name for {}, expected one that ends in {}": (
         "{} ist kein Name für {}, erwartet wird einer, der auf {} endet"
     ),
-    "Blender's {} exporter has failed: {}": "Blenders {}-Exporter ist gescheitert: {}",
-    "Blender's {} exporter did not get to its end; the disk may be full": (
-        "Blenders {}-Exporter kam nicht bis zum Ende; vielleicht ist die Festplatte voll"
+    "{} cannot be written: Blender's {} exporter has failed: {}": (
+        "{} lässt sich nicht schreiben: Blenders {}-Exporter ist gescheitert: {}"
     ),
-    "Blender's {} exporter has written nothing": "Blenders {}-Exporter hat nichts geschrieben",
+    "{} cannot be written: Blender's {} exporter did not get to its end; the disk may be full": (
+        "{} lässt sich nicht schreiben: Blenders {}-Exporter kam nicht bis zum Ende; vielleicht ist die Festplatte voll"
+    ),
+    "{} cannot be written: Blender's {} exporter has written nothing": (
+        "{} lässt sich nicht schreiben: Blenders {}-Exporter hat nichts geschrieben"
+    ),
     "{} would lose something of {}, and nothing was written": (
         "{} würde etwas von {} verlieren: nichts wurde geschrieben"
     ),
