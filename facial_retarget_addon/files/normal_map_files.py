@@ -30,6 +30,11 @@ def map_name(depth: str, frame: int, tile: Tile | None = None) -> str:
     return f"{STEM}{udim}.{frame:04d}{suffix_of(depth)}"
 
 
+def first_number(start: int) -> int:
+    """Number of the first picture of frames from `start` on: Blender plays no pictures with numbers below 0."""
+    return max(start, 0)
+
+
 def textured(face: MeshFile, what: str) -> TexturedSurface:
     """A mesh with its texture coordinates.
 

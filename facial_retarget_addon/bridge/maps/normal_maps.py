@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 from bpy.types import Context, Object
 
-from ...core.arrays import FloatArray, Progress, progress_part
+from ...core.arrays import BoolArray, FloatArray, Progress, progress_part
 from ...core.errors import RetargetError
 from ...core.level_retargeter import LevelRetargeter
 from ...core.methods.settings import LEVELED
@@ -17,7 +17,7 @@ from ...core.normal_maps.frame_maps import FrameMaps
 from ...core.normal_maps.surface import TexturedSurface
 from ...core.retarget import checked_fit
 from ...files.images import suffix_of
-from ...files.normal_map_files import textured, write_frame_maps
+from ...files.normal_map_files import first_number, textured, write_frame_maps
 from ...files.whole import Aside, appear_whole, written_aside
 from ..background import Steps, in_thread, part
 from ..bakes.frames import write_frames
@@ -83,7 +83,7 @@ def normal_map_steps(context: Context) -> Steps[MadeMaps]:
             fitted = cast(LevelRetargeter, checked_fit(method, problem, settings, progress_part(progress, 0.0, 0.3)))
             maps = FrameMaps(fitted, problem, surface, made, progress_part(progress, 0.3, 0.4))
             writing = progress_part(progress, 0.4, 1.0)
-            light = write_frame_maps(place, made, maps, source, frames.start, writing)
+            light = write_frame_maps(place, made, maps, source, first_number(frames.start), writing)
         return _Computed(maps, light, aside)
 
     computed = yield from part(in_thread(compute, _Computed.discard), READING, 1 - READING)
@@ -93,9 +93,26 @@ def normal_map_steps(context: Context) -> Steps[MadeMaps]:
         name = f"{task.target.name} level {made.level}"
         thing = level_object(name, task.target, computed.maps.surface)
         write_frames(thing, computed.light, frames.start)
-    sequence = MapSequence(folder, made, tuple(computed.maps.maps), frames)
-    warnings = wire(thing, sequence) if wish.wire else []
+    sequence = MapSequence(folder, made, tuple(computed.maps.maps), frames, _mapped(computed.maps))
+    warnings = _shading_warnings(thing) + (wire(thing, sequence) if wish.wire else [])
     return MadeMaps(folder, thing, warnings)
+
+
+def _mapped(maps: FrameMaps) -> BoolArray:
+    """(P,) the polygons of the light mesh that the maps are for."""
+    mapped = np.zeros(len(maps.surface.counts), bool)
+    mapped[maps.mapped.mesh.polygons] = True
+    return mapped
+
+
+def _shading_warnings(thing: Object) -> list[str]:
+    """What an object's shading does to maps that are made for smooth normals."""
+    if thing.data.normals_domain == "POINT":
+        return []
+    return [
+        f"object {thing.name!r} has flat faces, sharp edges or custom normals: the maps, which are made for smooth "
+        "shading, look wrong there"
+    ]
 
 
 def level_object(name: str, target: Object, surface: TexturedSurface) -> Object:

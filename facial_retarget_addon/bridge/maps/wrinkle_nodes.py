@@ -36,7 +36,7 @@ def wire_kit(thing: Object, folder: Path, files: KitFiles) -> list[str]:
         tree = map_nodes.node_tree(material)
         map_nodes.remove_maps(tree)
         shaders = [node for node in tree.nodes if node.type == "BSDF_PRINCIPLED"]
-        free = [socket for node in shaders if (socket := _free_normal(node)) is not None]
+        free = [socket for node in shaders if (socket := map_nodes.free_normal(node)) is not None]
         if len(free) < len(shaders) or not shaders:
             what = "has a normal of its own" if shaders else "has no Principled shader"
             warnings.append(f"material {material.name!r} {what}: the wrinkle kit is not wired there")
@@ -85,14 +85,6 @@ def _remove_group(group: NodeTree) -> None:
     for one in inner - {None}:
         if not one.users:
             bpy.data.node_groups.remove(one)
-
-
-def _free_normal(shader: Node) -> NodeSocket | None:
-    """The socket that takes a normal of a shader: its own, or that of the bump node before it; None if it is taken."""
-    socket = shader.inputs["Normal"]
-    while socket.is_linked and socket.links[0].from_node.type == "BUMP":
-        socket = socket.links[0].from_node.inputs["Normal"]
-    return None if socket.is_linked else socket
 
 
 def _drive(node: Node, files: KitFiles, keys: Key) -> None:

@@ -427,6 +427,15 @@ SENTENCES = {
     ),
     "Changed since the fit: {}": "Seit der Anpassung geändert: {:said}",
     "method {} has no levels, expected one of {}": "Methode {} hat keine Stufen; welche haben {}",
+    "material {} is linked from a library: the normal map is not wired there": (
+        "Material {} ist aus einer Bibliothek verknüpft: die Normalmap ist dort nicht angeschlossen"
+    ),
+    "material {} shows the normal map on {} too": "Material {} zeigt die Normalmap auch auf {}",
+    "object {} has flat faces, sharp edges or custom normals: the maps, which are made for smooth shading, look wrong "
+    "there": (
+        "Objekt {} hat flache Flächen, scharfe Kanten oder eigene Normalen: die Maps, für weiche Schattierung gemacht, "
+        "sehen dort falsch aus"
+    ),
     "material {} {}: the normal map is not wired there": (
         "Material {} {:said}: die Normalmap ist dort nicht angeschlossen"
     ),
