@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
-    from bpy.types import Object, Scene, ShapeKey
+    from bpy.types import Key, Object, Scene, ShapeKey
 
 FORMATS = {"GLTF": "glTF", "FBX": "FBX", "USD": "USD", "ALEMBIC": "Alembic"}
 """Formats of an export, and how they are called."""
@@ -46,7 +46,7 @@ def export_losses(form: str, face: Object, scene: Scene, points: bool = False) -
     if form == "ALEMBIC" or points:
         found += _lost_keys(things)
     else:
-        found += [*_left_out_modifiers(form, things), *_made_plain(things), *_beyond_one(form, things)]
+        found += [*_still(things), *_left_out_modifiers(form, things), *_made_plain(form, things)]
     return [*found, *_of_format(form, things, scene, points)]
 
 
@@ -55,11 +55,18 @@ def head_things(face: Object) -> list[Object]:
     return [face, *(part.thing for part in face.facial_retarget.parts if part.thing and part.thing.users_scene)]
 
 
-def own_keys(thing: Object) -> list[ShapeKey]:
-    """An object's shape keys but its first one and that of the live preview."""
-    keys = thing.data.shape_keys
-    own = () if keys is None else keys.key_blocks
-    return [key for key in own if key != keys.reference_key and key.name != "facial_retarget_preview"]
+def own_key_names(things: Iterable[Object]) -> list[str]:
+    """Names of the shape keys of some objects, each once, without the first one and that of the live preview."""
+    return list(dict.fromkeys(key.name for keys in _keyed(things) for key in _own(keys)))
+
+
+def _keyed(things: Iterable[Object]) -> list[Key]:
+    return [thing.data.shape_keys for thing in things if thing.data.shape_keys is not None]
+
+
+def _own(keys: Key) -> list[ShapeKey]:
+    basis = keys.reference_key
+    return [key for key in keys.key_blocks if key != basis and key.name != "facial_retarget_preview"]
 
 
 def usd_names(names: Iterable[str]) -> dict[str, str]:
@@ -68,13 +75,15 @@ def usd_names(names: Iterable[str]) -> dict[str, str]:
     Blender's exporter writes an underscore for each other character too, but two keys that become one are both lost.
     """
     made: dict[str, str] = {}
+    taken: set[str] = set()
     for name in names:
         safe = "".join(letter if f"_{letter}".isidentifier() else "_" for letter in name)
         safe = safe if safe.isidentifier() else f"_{safe}"
         unique, number = _shortened(safe, LONGEST), 1
-        while unique in made.values():
+        while unique in taken:
             unique, number = f"{_shortened(safe, LONGEST - 4)}_{number:03d}", number + 1
         made[name] = unique
+        taken.add(unique)
     return made
 
 
@@ -85,8 +94,8 @@ def _shortened(name: str, length: int) -> str:
 def _left_out_frames(things: list[Object], scene: Scene) -> Iterator[Loss]:
     """Keyframes outside the scene's range; a frame's key is off at the frames beside it."""
     first, last = scene.frame_start, scene.frame_end
-    keyed = [thing.data.shape_keys for thing in things if thing.data.shape_keys is not None]
-    actions = [keys.animation_data.action for keys in keyed if keys.animation_data and keys.animation_data.action]
+    animated = [keys.animation_data for keys in _keyed(things) if keys.animation_data is not None]
+    actions = [animation.action for animation in animated if animation.action is not None]
     # An action that has lost its curves says (0, 0).
     ranges = [ends for ends in (tuple(action.curve_frame_range) for action in actions) if ends[1] > ends[0]]
     if any(start < first - 1 or end > last + 1 for start, end in ranges):
@@ -97,7 +106,7 @@ def _left_out_frames(things: list[Object], scene: Scene) -> Iterator[Loss]:
 
 
 def _lost_keys(things: list[Object]) -> Iterator[Loss]:
-    names = dict.fromkeys(key.name for thing in things for key in own_keys(thing))
+    names = own_key_names(things)
     if names:
         yield Loss("Shape keys become moving vertices, without sliders: {names}", {"names": _listed(names)})
 
@@ -119,35 +128,36 @@ def _left_out_modifiers(form: str, things: list[Object]) -> Iterator[Loss]:
             )
 
 
-def _made_plain(things: list[Object]) -> Iterator[Loss]:
-    driven = dict.fromkeys(key.name for thing in things for key in own_keys(thing) if _is_driven(key))
-    if driven:
-        yield Loss("Driven shape keys become curves: {names}", {"names": _listed(driven)})
-    muted = dict.fromkeys(key.name for thing in things for key in own_keys(thing) if key.mute)
-    if muted:
-        yield Loss("Muted shape keys stay at 0: {names}", {"names": _listed(muted)})
+def _still(things: list[Object]) -> Iterator[Loss]:
+    moving = any(modifier.type in {*CACHES, "ARMATURE"} for thing in things for modifier in thing.modifiers)
+    if not moving and not own_key_names(things):
+        yield Loss("Nothing of {thing} will move: it has no shape keys. Retarget first", {"thing": things[0].name})
+
+
+def _made_plain(form: str, things: list[Object]) -> Iterator[Loss]:
+    """What keys are that a file's keys cannot be, or that few programs take."""
+    driven: list[str] = []
+    muted: list[str] = []
+    beyond: list[str] = []
+    for keys in _keyed(things):
+        animation = keys.animation_data
+        paths = set() if animation is None else {curve.data_path for curve in animation.drivers}
+        for key in _own(keys):
+            driven += [key.name] if paths and key.path_from_id("value") in paths else []
+            muted += [key.name] if key.mute else []
+            beyond += [key.name] if key.slider_min < 0 or key.slider_max > 1 else []
+    for text, names in (
+        ("Driven shape keys become curves: {names}", driven),
+        ("Muted shape keys stay at 0: {names}", muted),
+        ("{form} carries values below 0 and above 1, and many programs cut them off: {names}", beyond),
+    ):
+        if names:
+            yield Loss(text, {"form": FORMATS[form], "names": _listed(dict.fromkeys(names))})
     for thing in things:
         if thing.data.shape_keys is not None and not thing.data.shape_keys.use_relative:
             yield Loss(
                 "The absolute shape keys of {thing} become relative ones with a curve each", {"thing": thing.name}
             )
-
-
-def _is_driven(key: ShapeKey) -> bool:
-    animation = key.id_data.animation_data
-    path = key.path_from_id("value")
-    return animation is not None and any(curve.data_path == path for curve in animation.drivers)
-
-
-def _beyond_one(form: str, things: list[Object]) -> Iterator[Loss]:
-    beyond = dict.fromkeys(
-        key.name for thing in things for key in own_keys(thing) if key.slider_min < 0 or key.slider_max > 1
-    )
-    if beyond:
-        yield Loss(
-            "{form} carries values below 0 and above 1, and many programs cut them off: {names}",
-            {"form": FORMATS[form], "names": _listed(beyond)},
-        )
 
 
 def _of_format(form: str, things: list[Object], scene: Scene, points: bool) -> Iterator[Loss]:
@@ -166,9 +176,10 @@ def _of_format(form: str, things: list[Object], scene: Scene, points: bool) -> I
     if form == "GLTF" and any(name != "UVMap" for name in layers):
         yield Loss("The names of UV maps are lost")
     if form == "USD":
-        keys = () if points else dict.fromkeys(key.name for thing in things for key in own_keys(thing))
         yield from _renamed("USD calls objects otherwise: {names}", usd_names(thing.name for thing in things))
-        yield from _renamed("USD calls shape keys otherwise: {names}", usd_names(keys))
+        yield from _renamed(
+            "USD calls shape keys otherwise: {names}", usd_names(() if points else own_key_names(things))
+        )
         if any(layer.name != "st" for thing in things for layer in thing.data.uv_layers if layer.active_render):
             yield Loss("The UV map that renders is called st, as USD's programs expect")
     if form == "ALEMBIC":

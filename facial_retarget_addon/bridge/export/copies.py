@@ -58,7 +58,7 @@ def make_plain(
     times : (F,) scene frames. values : of the keys of `things` at them.
     names : key -> its name on the copies; without an entry it stays.
     """
-    action = None
+    action, frames = None, np.array(times, float)
     for thing, copy in zip(things, copies, strict=True):
         for modifier in [modifier for modifier in copy.modifiers if modifier.type != "ARMATURE"]:
             copy.modifiers.remove(modifier)
@@ -68,18 +68,18 @@ def make_plain(
         _clear_keys(copy)
         copy.data.vertices.foreach_set("co", basis.ravel())
         ensure_basis(copy).name = thing.data.shape_keys.reference_key.name
-        for name in own:
-            write_key(ensure_key(copy, names.get(name, name)), basis + _masked(thing, name))
+        made = [ensure_key(copy, names.get(name, name)) for name in own]
+        for key, name in zip(made, own, strict=True):
+            write_key(key, basis + _masked(thing, name))
         keys = copy.data.shape_keys
         bag = ensure_curves(keys, f"{copy.name} exported", action)
         action = keys.animation_data.action
-        for name, played in zip(own, values[thing].T, strict=True):
-            key = find_key(copy, names.get(name, name))
+        for key, played in zip(made, values[thing].T, strict=True):
             key.slider_max = max(1.0, float(np.ceil(played.max())))
             key.slider_min = min(0.0, float(np.floor(played.min())))
             key.value = float(played[0])
             rows = turning_rows(played)
-            write_curve(bag, value_path(key.name), np.array(times, float)[rows], played[rows])
+            write_curve(bag, value_path(key.name), frames[rows], played[rows])
         copy.data.update()
 
 

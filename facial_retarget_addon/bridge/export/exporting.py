@@ -11,7 +11,7 @@ import bpy
 from bpy.types import Collection, Context, Object, Scene
 
 from ...core.errors import RetargetError
-from ...export_losses import FORMATS, UNSAMPLED, Loss, export_losses, own_keys, usd_names
+from ...export_losses import FORMATS, UNSAMPLED, Loss, export_losses, own_key_names, usd_names
 from ...files.whole import check_place, written_whole
 from ..background import Steps, part
 from ..bakes.times import FrameTimes
@@ -151,7 +151,7 @@ def _collection(scene: Scene) -> Collection:
 
 def _names(form: str, things: Sequence[Object]) -> dict[str, str]:
     """New names of keys: USD would make one of two that differ in what it does not take."""
-    return usd_names(dict.fromkeys(key.name for thing in things for key in own_keys(thing))) if form == "USD" else {}
+    return usd_names(own_key_names(things)) if form == "USD" else {}
 
 
 @contextmanager

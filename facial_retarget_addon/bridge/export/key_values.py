@@ -20,7 +20,7 @@ WHOLE = 1e-3
 """Frames from a sample below which a keyframe lies on it."""
 
 KeyValues = Mapping[Object, FloatArray]
-"""An object -> (F, K) values of its shape keys, those of `key_names`, as relative ones."""
+"""An object -> (F, K) float32 values of its shape keys, those of `key_names`, as relative ones."""
 
 
 def read_key_values(context: Context, things: Sequence[Object], times: Sequence[float]) -> Steps[KeyValues]:
@@ -32,29 +32,36 @@ def read_key_values(context: Context, things: Sequence[Object], times: Sequence[
     """
     check_visible(things, context.view_layer)
     keyed = {thing: thing.data.shape_keys for thing in things if thing.data.shape_keys is not None}
-    names = {thing: key_names(thing) for thing in keyed}
-    values = {thing: np.zeros((len(times), len(names[thing]))) for thing in keyed}
+    rows, values = {}, {}
     for thing, keys in keyed.items():
         _check_linear(thing, keys)
+        places = {name: row for row, name in enumerate(keys.key_blocks.keys())}
+        rows[thing] = np.array([places[name] for name in key_names(thing)], np.int64)
+        values[thing] = np.zeros((len(times), len(rows[thing])), np.float32)
 
     def read(i: int, time: float) -> None:
         context.scene.frame_set(int(time // 1), subframe=time % 1)
         depsgraph = context.evaluated_depsgraph_get()
         for thing, keys in keyed.items():
-            values[thing][i] = _values(keys.evaluated_get(depsgraph), names[thing])
+            values[thing][i] = _values(keys.evaluated_get(depsgraph))[rows[thing]]
 
     yield from each_frame(context.scene, times, read)
     return values
 
 
-def _values(keys: Key, names: Sequence[str]) -> list[float]:
-    """Values of evaluated keys; absolute ones share 1 between the two that the evaluation time lies between."""
+def _values(keys: Key) -> FloatArray:
+    """(K,) values of evaluated keys; absolute ones share 1 between the two that the evaluation time lies between."""
+    blocks = keys.key_blocks
+    values, mutes = np.empty(len(blocks), np.float32), np.empty(len(blocks), bool)
     if keys.use_relative:
-        return [0.0 if keys.key_blocks[name].mute else keys.key_blocks[name].value for name in names]
-    moments = {key.name: key.frame for key in keys.key_blocks}
-    ordered = sorted(moments, key=moments.__getitem__)
-    place = np.interp(keys.eval_time, [moments[name] for name in ordered], np.arange(len(ordered)))
-    return [float(max(0.0, 1.0 - abs(place - ordered.index(name)))) for name in names]
+        blocks.foreach_get("value", values)
+        blocks.foreach_get("mute", mutes)
+        return np.where(mutes, np.float32(0), values)
+    blocks.foreach_get("frame", values)
+    order = np.argsort(values)
+    place = np.interp(keys.eval_time, values[order], np.arange(len(order)))
+    values[order] = np.maximum(1 - np.abs(place - np.arange(len(order))), 0)
+    return values
 
 
 def _check_linear(thing: Object, keys: Key) -> None:

@@ -73,6 +73,9 @@ TEXTS = {
     "{thing} goes without what its modifiers do ({names}): they would cost it its shape keys": (
         "{thing} kommt ohne das, was seine Modifikatoren tun ({names}): sie würden die Formschlüssel kosten"
     ),
+    "Nothing of {thing} will move: it has no shape keys. Retarget first": (
+        "Nichts von {thing} wird sich bewegen: es hat keine Formschlüssel. Zuerst übertragen"
+    ),
     "Driven shape keys become curves: {names}": "Formschlüssel mit Treibern werden zu Kurven: {names}",
     "Muted shape keys stay at 0: {names}": "Stummgeschaltete Formschlüssel bleiben auf 0: {names}",
     "The absolute shape keys of {thing} become relative ones with a curve each": (

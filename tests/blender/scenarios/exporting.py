@@ -336,6 +336,24 @@ def armatures_go_along_and_other_modifiers_stay_behind() -> None:
     compare("usd", imported("usd", "He ad.L", "He ad.L"), finer)
 
 
+def closing_the_steps_leaves_everything_as_it_was() -> None:
+    """Esc, at any moment before Blender's exporter runs."""
+    face = head()[0]
+    exporting = part("bridge.export.exporting")
+    before = everything()
+    wish = exporting.ExportWish("FBX", FOLDER / "stopped.fbx")
+    for turns in (1, 4, len(TIMES) + 1):
+        for steps in (
+            exporting.export_steps(bpy.context, face, wish, str),
+            exporting.prepare_steps(bpy.context, face),
+        ):
+            for _ in range(turns):
+                next(steps)
+            steps.close()
+            assert not differences(before, everything()), (turns, differences(before, everything()))
+    assert not list(FOLDER.glob("*stopped*"))
+
+
 def caches_and_absolute_keys_are_exported_as_far_as_they_go() -> None:
     """A cache goes to Alembic and USD, and is missed elsewhere; absolute keys become relative ones."""
     things = head()
@@ -386,6 +404,9 @@ def what_is_lost_is_said_before_anything_is_written() -> None:
     for form, words in wanted.items():
         said = " | ".join(str(loss) for loss in losses.export_losses(form, face, scene))
         assert all(word in said for word in words), (form, said)
+    still = demo_object(part("demo").actor(1_500), "still")
+    assert "Nothing of still will move" in str(losses.export_losses("FBX", still, scene)[0])
+    bpy.data.objects.remove(still)
     scene.frame_end = LAST - 2
     said = str(losses.export_losses("FBX", face, scene)[0])
     assert said == "Only the scene's frames 5 to 7 are exported: the keyframes reach from 5 to 9", said
@@ -493,5 +514,6 @@ keys_and_motion_survive_every_format()
 armatures_go_along_and_other_modifiers_stay_behind()
 caches_and_absolute_keys_are_exported_as_far_as_they_go()
 what_is_lost_is_said_before_anything_is_written()
+closing_the_steps_leaves_everything_as_it_was()
 a_full_disk_leaves_an_earlier_file_and_blender_alive()
 a_prepared_head_is_plain_and_moves_alike()
