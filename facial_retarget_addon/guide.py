@@ -107,7 +107,8 @@ def _face_advice(context: Context, task: PropertyGroup) -> Advice | None:
     if task.source.hide_get() or task.source.hide_viewport:
         return Advice("FACES", "Unhide {face}: Blender moves nothing hidden", {"face": task.source.name})
     if _surely_still(task.source):
-        return Advice("FACES", "{face} does not move: animate it, or choose another source", {"face": task.source.name})
+        text = "{face} does not move: animate it, import motion (More, MPEG-4 Face), or choose another source"
+        return Advice("FACES", text, {"face": task.source.name})
     return None
 
 

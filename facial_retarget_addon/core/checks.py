@@ -177,15 +177,20 @@ def _inside_out(face: Face, skin: BoolArray) -> bool:
 
 
 # ---- points -------------------------------------------------------------------------------------
+def stray_points(face: Face) -> list[str]:
+    """Names of the points of the skin that lie on another component than the most; at least one point must be there."""
+    components = _point_components(face)
+    most = np.argmax(np.bincount(components))
+    names = [face.points.names[row] for row in np.flatnonzero(components != most)]
+    return [name for name in names if name not in OWN_PARTS]
+
+
 def _stray_points(side: str, face: Face) -> list[str]:
     """Points on another component than the most, and points in one place."""
     if not len(face.points):
         return []
     found: list[str] = []
-    components = _point_components(face)
-    most = np.argmax(np.bincount(components))
-    names = [face.points.names[row] for row in np.flatnonzero(components != most)]
-    stray = [name for name in names if name not in OWN_PARTS]
+    stray = stray_points(face)
     if stray:
         found.append(
             f"{side}: points {_listed(stray)} lie on another part of the mesh than the others, such as lashes; move "

@@ -8,12 +8,14 @@ import numpy as np
 from bpy.types import Object
 
 from ...core.arrays import Progress
+from ...core.checks import stray_points
 from ...core.doubts import doubts
 from ...core.errors import RetargetError
 from ...core.mesh import TriMesh
 from ...core.placing.predictor import LEAST, Guess, Predictor
 from ...core.point_sets import POINT_INFOS, POINT_SETS, partner_of, side_of
 from ...core.points import FeaturePoints
+from ...core.problem import Face
 from ..background import Steps, in_thread
 from ..meshes import neutral_mesh, read_positions, stretch
 from ..raycast import available_caster
@@ -210,5 +212,9 @@ def _doubts(thing: Object, points: FeaturePoints) -> dict[str, str]:
     if not len(points):
         return {}
     places = points.positions(read_positions(thing.data).astype(np.float64))
-    strange = predictor_of(thing).doubtful(points) if _telling(points) >= LEAST else ()
-    return dict.fromkeys(strange, "far from where the other points expect it") | doubts(points.names, places)
+    if _telling(points) < LEAST:
+        return doubts(points.names, places)
+    predictor = predictor_of(thing)
+    strange = dict.fromkeys(predictor.doubtful(points), "far from where the other points expect it")
+    stray = dict.fromkeys(stray_points(Face(predictor.mesh, points)), "on another part of the mesh, such as lashes")
+    return strange | stray | doubts(points.names, places)

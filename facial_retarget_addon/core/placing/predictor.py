@@ -87,6 +87,11 @@ class Predictor:
             pass
 
     @property
+    def mesh(self) -> TriMesh:
+        """The neutral."""
+        return self._mesh
+
+    @property
     def has_looked(self) -> bool:
         """Whether the face was looked for from nothing, which takes a second or more."""
         return "_best_face" in self.__dict__

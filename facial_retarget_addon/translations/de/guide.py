@@ -9,8 +9,9 @@ TEXTS = {
         "Quelle und Ziel sind dasselbe Objekt: ein anderes Ziel wählen"
     ),
     "Unhide {face}: Blender moves nothing hidden": "{face} einblenden: Verborgenes bewegt Blender nicht",
-    "{face} does not move: animate it, or choose another source": (
-        "{face} bewegt sich nicht: animieren, oder eine andere Quelle wählen"
+    "{face} does not move: animate it, import motion (More, MPEG-4 Face), or choose another source": (
+        "{face} bewegt sich nicht: animieren, Bewegung importieren (Weiteres, MPEG-4-Gesicht) oder eine andere Quelle "
+        "wählen"
     ),
     "Only {count} points have the same names on both faces: {wanted} must": (
         "Nur {count} Punkte heißen auf beiden Gesichtern gleich: {wanted} müssen es sein"

@@ -310,6 +310,7 @@ SENTENCES = {
     "on the wrong side of {}": "auf der falschen Seite von {:said}",
     "a triangle of the base mesh folds over here": "ein Dreieck der Basismasche klappt hier um",
     "far from where the other points expect it": "weit von dort, wo die anderen Punkte ihn erwarten",
+    "on another part of the mesh, such as lashes": "auf einem anderen Teil der Masche, etwa Wimpern",
     "feature points {} are missing": "Merkmalspunkte {} fehlen",
     "no face was found on the mesh: the average face differs from it by {}, expected less than {}; place at least {} "
     "points by hand": (

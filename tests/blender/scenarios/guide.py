@@ -41,7 +41,7 @@ advised("Source and target are one object: choose another target", "FACES")
 context.view_layer.objects.active = target
 task.target = None
 assert bpy.ops.facial_retarget.choose_face(role="TARGET") == {"FINISHED"}
-advised("source does not move: animate it, or choose another source", "FACES")
+advised("source does not move: animate it, import motion (More, MPEG-4 Face), or choose another source", "FACES")
 source.keyframe_insert("location", frame=1)
 source.hide_set(True)
 advised("Unhide source: Blender moves nothing hidden", "FACES")

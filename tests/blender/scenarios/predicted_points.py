@@ -207,3 +207,9 @@ assert not any(point.doubt for point in face.points)
 points.place_points(thing, part("core.points").FeaturePoints(("9.3",), stored.subset(["11.1"]).vertices, [[1.0, 0, 0]]))
 prediction.update_predictions(thing)
 assert face.points["9.3"].doubt, "a nose on the forehead"
+pieces = part("bridge.meshes").neutral_mesh(thing).components
+elsewhere = int(np.flatnonzero(pieces != pieces[truth.subset(["9.3"]).holders[0]])[0])
+on_part = part("core.points").FeaturePoints(("9.3",), np.full((1, 3), elsewhere), np.array([[1.0, 0, 0]]))
+points.place_points(thing, on_part)
+prediction.update_predictions(thing)
+assert "another part of the mesh" in face.points["9.3"].doubt
