@@ -126,6 +126,9 @@ def _add_clone_arguments(clone: argparse.ArgumentParser) -> None:
     clone.add_argument(
         "--page", action="store_true", help="a page (.html), a contact sheet (.png) and figures (.report.json) as well"
     )
+    clone.add_argument(
+        "--resume", action="store_true", help="keep each head that is done, and go on from what a stopped run has kept"
+    )
     clone.set_defaults(command=_clone)
 
 
@@ -256,7 +259,7 @@ def _clone(arguments: argparse.Namespace) -> int:
         raise RetargetError(f"a clone job says all by itself, but --{', --'.join(flags)} came with {arguments.job}")
     if job is None:
         job = _clone_job_of(arguments)
-    reports = run_clone_job(job, _progress(arguments), acting_donor)
+    reports = run_clone_job(job, _progress(arguments), acting_donor, arguments.resume)
     for target, report in zip(job.targets, reports, strict=True):
         _warn(f"{target.face.neutral.name}: {text}" for text in report["warnings"])
         print(f"{target.shapes}: {len(report['shapes'])} shapes")

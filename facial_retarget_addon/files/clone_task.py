@@ -24,6 +24,7 @@ from ..core.shapes.shape_set import ShapeSet
 from ..core.shapes.sides import left_share
 from .clone_job import BuiltInActor, CloneJob, TargetFiles, read_clone_job
 from .job import FaceFiles
+from .kept_clone import KeptTarget, forget_targets
 from .mesh_file import MeshFile
 from .meshes import read_mesh
 from .normal_map_files import textured
@@ -78,14 +79,15 @@ def run_clone_file(
 
 
 def run_clone_job(
-    job: CloneJob, progress: Progress = no_progress, make_actor: MakeActor = no_actor
+    job: CloneJob, progress: Progress = no_progress, make_actor: MakeActor = no_actor, resume: bool = False
 ) -> list[dict[str, Any]]:
-    """Do a job: nothing is written before all of it is done, and everything appears together.
+    """Do a job: no output is written before all of it is done, and everything appears together.
 
     Parameters
     ----------
     progress : told how far the job is; may raise Cancelled, which leaves every file as it was.
     make_actor : `demonstration.acting_donor`, for jobs that take the built-in actor's shapes.
+    resume : keep what each target gets until the job is done, and pass over those that an earlier such run has kept.
 
     Returns
     -------
@@ -106,26 +108,69 @@ def run_clone_job(
     with written_whole() as aside:
         for number, target in enumerate(inputs.targets):
             part = progress_part(progress, (number + 0.1) / len(inputs.targets), (number + 1) / len(inputs.targets))
-            cloned = _clone(job, inputs, target, progress_part(part, 0.0, 0.5))
-            wanted = cloned.only(inputs.prepared.wanted)
-            report = _report(job, target, wanted, seconds)
-            add_shapes(aside, wanted.shapes, target.files.shapes, target.mesh_file)
-            if target.files.page is not None or target.files.sheet is not None:
-                if not pictures:
-                    seen = _seen(inputs.prepared.shapes, inputs.prepared)
-                    pictures = key_pictures(inputs.source, seen, progress_part(part, 0.5, 0.7))
-                seen = _seen(cloned.shapes, inputs.prepared)
-                names = inputs.prepared.wanted
-                keys = sheet_rows(names, pictures, target.face, seen, progress_part(part, 0.7, 1.0))
-                _add_pictures(aside, target.files, report, keys)
-            if target.files.wrinkles is not None:
-                kit = _add_wrinkle_kit(aside, job, inputs, target, wanted, progress_part(part, 0.5, 0.7))
-                report["wrinkle_kit"] = kit
-            if target.files.report is not None:
-                aside.place(target.files.report).write_bytes(report_json(report))
-            reports.append(report)
+            if resume:
+                reports.append(_kept_target(aside, job, inputs, number, seconds, pictures, part))
+            else:
+                reports.append(_add_target(aside, job, inputs, target, seconds, pictures, part))
         progress(1.0, "Writing")
+    forget_targets(job)
     return reports
+
+
+def _kept_target(
+    aside: Aside,
+    job: CloneJob,
+    inputs: _Inputs,
+    number: int,
+    reading: float,
+    pictures: list[Image],
+    progress: Progress,
+) -> dict[str, Any]:
+    """As `_add_target`, but for a target that an earlier run has kept; keeps what it makes."""
+    kept, target = KeptTarget(job, number, aside), inputs.targets[number]
+    if kept.report is not None:
+        progress(0.0, f"{target.name}, from an earlier run")
+        return kept.report
+    try:
+        report = _add_target(kept, job, inputs, target, reading, pictures, progress)
+        kept.done(report)
+    except BaseException:
+        kept.vanish()
+        raise
+    return report
+
+
+def _add_target(
+    aside: Aside,
+    job: CloneJob,
+    inputs: _Inputs,
+    target: _Target,
+    reading: float,
+    pictures: list[Image],
+    progress: Progress,
+) -> dict[str, Any]:
+    """Write all that a target gets; returns its report.
+
+    pictures : of the source's shapes; made here for the first target that wants some.
+    """
+    cloned = _clone(job, inputs, target, progress_part(progress, 0.0, 0.5))
+    wanted = cloned.only(inputs.prepared.wanted)
+    report = _report(job, target, wanted, reading)
+    add_shapes(aside, wanted.shapes, target.files.shapes, target.mesh_file)
+    if target.files.page is not None or target.files.sheet is not None:
+        if not pictures:
+            seen = _seen(inputs.prepared.shapes, inputs.prepared)
+            pictures += key_pictures(inputs.source, seen, progress_part(progress, 0.5, 0.7))
+        seen = _seen(cloned.shapes, inputs.prepared)
+        names = inputs.prepared.wanted
+        keys = sheet_rows(names, pictures, target.face, seen, progress_part(progress, 0.7, 1.0))
+        _add_pictures(aside, target.files, report, keys)
+    if target.files.wrinkles is not None:
+        kit = _add_wrinkle_kit(aside, job, inputs, target, wanted, progress_part(progress, 0.5, 0.7))
+        report["wrinkle_kit"] = kit
+    if target.files.report is not None:
+        aside.place(target.files.report).write_bytes(report_json(report))
+    return report
 
 
 def _clone(job: CloneJob, inputs: _Inputs, target: _Target, progress: Progress) -> ClonedShapes:

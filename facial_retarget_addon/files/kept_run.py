@@ -6,7 +6,7 @@ import hashlib
 import io
 import json
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict
 from importlib.metadata import version
@@ -28,7 +28,7 @@ ENDING = ".unfinished"
 _PICTURES = f".pictures{ENDING}"
 """The same of normal maps, where the job makes nothing else."""
 _RECORD = "made_with.json"
-_CODE = [Path(__file__).resolve().parents[1] / room for room in ("core", "files")]
+_CODE = [Path(__file__).resolve().parents[1] / room for room in ("core", "demo", "files")]
 _CHUNK = 1 << 20
 
 
@@ -53,7 +53,7 @@ class KeptRun:
             self._folder.mkdir(exist_ok=True)
             _remove_parts(self._folder)
             if record.exists():
-                _check_same(read_json(record), wanted, self._folder)
+                check_same(read_json(record), wanted, self._folder)
             else:
                 _check_empty(self._folder)
                 write_whole(record, json_bytes(wanted))
@@ -112,9 +112,7 @@ def made_with(job: Job) -> dict[str, str]:
     RetargetError : if an input cannot be read.
     """
     values: dict[str, object] = {
-        "this program": _fingerprint(sorted(path for room in _CODE for path in room.rglob("*.py"))),
-        "NumPy": np.__version__,
-        "SciPy": version("scipy"),
+        **program(),
         "method": job.method,
         "[source] range": job.chosen,
         "the names of the examples": [example.name for example in job.examples],
@@ -125,8 +123,18 @@ def made_with(job: Job) -> dict[str, str]:
     if job.normal_maps is not None:
         values |= {f"[normal_maps] {name}": value for name, value in asdict(job.normal_maps.settings).items()}
     inputs = {name: path for name, path in job.inputs().items() if not name.startswith("[bake]")}
-    files = {name: f"{path.suffix} {_fingerprint(_files(path))}" for name, path in inputs.items()}
-    return {name: str(value) for name, value in values.items()} | files
+    return {name: str(value) for name, value in values.items()} | fingerprints(inputs)
+
+
+def program() -> dict[str, str]:
+    """What this program is made of, for a record."""
+    code = sorted(path for room in _CODE for path in room.rglob("*.py"))
+    return {"version of this program": _fingerprint(code), "NumPy": np.__version__, "SciPy": version("scipy")}
+
+
+def fingerprints(inputs: Mapping[str, Path]) -> dict[str, str]:
+    """What input files or folders hold, for a record; RetargetError if one cannot be read."""
+    return {name: f"{path.suffix} {_fingerprint(_files(path))}" for name, path in inputs.items()}
 
 
 def _remove_parts(folder: Path) -> None:
@@ -160,13 +168,14 @@ def _fingerprint(files: list[Path]) -> str:
     return digest.hexdigest()
 
 
-def _check_same(kept: object, wanted: dict[str, str], folder: Path) -> None:
+def check_same(kept: object, wanted: Mapping[str, str], place: Path) -> None:
+    """RetargetError if what a place keeps was made with anything else; names the differences."""
     before = kept if isinstance(kept, dict) else {}
     differing = [name for name in {**before, **wanted} if before.get(name) != wanted.get(name)]
     if differing:
         raise RetargetError(
-            f"{folder} keeps a run that was made with another {', another '.join(differing)}; expected the same as "
-            "then, or remove that folder to start anew"
+            f"{place} keeps a run that was made with another {', another '.join(differing)}; expected the same as "
+            "then, or remove it to start anew"
         )
 
 

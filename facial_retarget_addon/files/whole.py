@@ -48,22 +48,21 @@ class Aside:
         self.busy_with = path
         return aside
 
-    def adopt(self, made: Path, path: Path, replaces: str = "") -> None:
-        """Let a folder that stands beside `path` appear there with the rest; it stays where it is if that fails.
+    def adopt(self, made: Path, path: Path, replaces: Suffixes = "") -> None:
+        """Let what stands beside `path`, a file or folder, appear there with the rest; it stays if that fails.
 
         Parameters and errors as `place`.
         """
         check_place(path, replaces)
         self._pairs.append((made, path))
         self._adopted.add(made)
+        self.busy_with = path
 
     def appear(self) -> None:
         """Put everything in its place: first all of it onto the disk, then the renames, all of them or none."""
-        # Files that are flushed at once go onto the disk in one go: frames in a folder 20 times as fast.
-        with ThreadPoolExecutor(FLUSHED) as flushing:
-            for aside, path in self._pairs:
-                self.busy_with = path
-                list(flushing.map(_flush, aside.iterdir() if aside.is_dir() else [aside]))
+        for aside, path in self._pairs:
+            self.busy_with = path
+            flush(aside)
         done: list[tuple[Path, Path]] = []
         old: list[Path] = []
         try:
@@ -80,7 +79,7 @@ class Aside:
             raise
         self._pairs.clear()
         for place in old:
-            _remove(place)
+            remove(place)
 
     def named(self, text: str) -> str:
         """A message with the real places in it: a writer that was given one beside them knows no other."""
@@ -92,7 +91,7 @@ class Aside:
         """Remove what has not appeared."""
         for aside, _ in self._pairs:
             if aside not in self._adopted:
-                _remove(aside)
+                remove(aside)
 
 
 @contextmanager
@@ -210,6 +209,13 @@ def _check_replaceable(folder: Path, replaces: Suffixes) -> None:
         )
 
 
+def flush(place: Path) -> None:
+    """See to it that a file, or the files of a folder, are on the disk."""
+    # Files that are flushed at once go there in one go: frames in a folder 20 times as fast.
+    with ThreadPoolExecutor(FLUSHED) as flushing:
+        list(flushing.map(_flush, place.iterdir() if place.is_dir() else [place]))
+
+
 def _flush(path: Path) -> None:
     with open(path, "rb+") as file:
         os.fsync(file.fileno())
@@ -226,7 +232,8 @@ def _renamed(start: Path, end: Path) -> list[tuple[Path, Path]]:
     return [(start, end)]
 
 
-def _remove(place: Path) -> None:
+def remove(place: Path) -> None:
+    """Remove a file or folder, if it is there."""
     if place.is_dir():
         shutil.rmtree(place, ignore_errors=True)
     else:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import json
+import shutil
 from dataclasses import fields, replace
 from pathlib import Path
 
@@ -16,6 +18,7 @@ from facial_retarget_addon.core.methods.settings import HierarchicalSettings
 from facial_retarget_addon.core.shapes.prepare import Preparation
 from facial_retarget_addon.core.shapes.shape_set import ShapeSet
 from facial_retarget_addon.core.shapes.sides import SideNames
+from facial_retarget_addon.files import clone_task
 from facial_retarget_addon.files.animation_table import read_table
 from facial_retarget_addon.files.clone_job import (
     BuiltInActor,
@@ -351,3 +354,73 @@ def test_the_documents_job_and_table_are_sound(tmp_path: Path) -> None:
     assert all(f"{name} = " in block("toml") or f"{name}." in block("toml") for name in known)
     (tmp_path / "table.json").write_text(block("json"))
     assert read_table(tmp_path / "table.json", 5171).names == ("open_jaw", "viseme_PP", "jawOpen")
+
+
+# ---- going on -----------------------------------------------------------------------------------
+
+
+def test_a_stopped_clone_goes_on_with_the_next_head(heads: Path, tmp_path: Path, monkeypatch, capsys) -> None:
+    both = [*target(heads, "one", tmp_path / "one.npz"), *target(heads, "two", tmp_path / "two"), "--page"]
+    assert clone(heads, *both) == 0
+    wanted = without_times(tmp_path)
+    shutil.rmtree(tmp_path / "two")
+    for path in tmp_path.iterdir():
+        path.unlink()
+    made, do = [], clone_task._clone
+
+    def stopping(job, inputs, head, progress):
+        made.append(head.name)
+        if made == ["one.obj", "two.obj"]:
+            raise KeyboardInterrupt
+        return do(job, inputs, head, progress)
+
+    monkeypatch.setattr(clone_task, "_clone", stopping)
+    assert clone(heads, *both, "--resume") == 130
+    assert "the same command goes on from there" in capsys.readouterr().err
+    kept = [".one.report.unfinished.json", ".one.unfinished.html", ".one.unfinished.npz", ".one.unfinished.png"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == [*kept, "one.npz.unfinished.json"]
+
+    # Another method cannot go on with it; what a power cut has left half written of the second head is no hindrance.
+    assert clone(heads, *both, "--resume", "--method", "feature_points") == 2
+    assert "one.npz.unfinished.json keeps a run that was made with another method" in capsys.readouterr().err
+    (tmp_path / ".two.unfinished").mkdir()
+    (tmp_path / ".two.unfinished" / "half.obj").write_text("v 1")
+    made.clear()
+    assert clone(heads, *both, "--resume") == 0
+    assert made == ["two.obj"]
+    assert without_times(tmp_path) == wanted
+
+
+def test_a_head_that_cannot_be_done_keeps_the_others(heads: Path, tmp_path: Path, monkeypatch, capsys) -> None:
+    both = [*target(heads, "one", tmp_path / "one.json"), *target(heads, "two", tmp_path / "two.npz")]
+    do = clone_task.add_shapes
+
+    def full(aside, shapes, out, neutral):
+        if out.name == "two.npz":
+            aside.place(out).write_bytes(b"half")
+            raise OSError(errno.ENOSPC, "No space left on device")
+        do(aside, shapes, out, neutral)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(clone_task, "add_shapes", full)
+        assert clone(heads, *both, "--resume") == 2
+    assert "two.npz cannot be written: the disk is full" in capsys.readouterr().err
+    assert sorted(path.name for path in tmp_path.iterdir()) == [".one.unfinished.json", "one.json.unfinished.json"]
+    assert clone(heads, *both) == 0
+    # A run without --resume makes all anew, and leaves nothing of what was kept.
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["one.json", "two.npz"]
+
+
+def without_times(folder: Path) -> dict[str, bytes]:
+    """What every file of a folder holds, reports without their times, pages left out: they show the times."""
+    held = {}
+    for path in sorted(folder.rglob("*")):
+        if path.is_dir() or path.suffix == ".html":
+            held[path.name] = b""
+        elif path.name.endswith(".report.json"):
+            report = json.loads(path.read_text())
+            assert report.pop("seconds")
+            held[path.name] = json.dumps(report).encode()
+        else:
+            held[path.name] = path.read_bytes()
+    return held

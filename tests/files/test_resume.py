@@ -255,7 +255,7 @@ def test_only_what_was_made_in_the_same_way_goes_on(long_job, capsys, listing, c
         return
     assert status == 2
     assert said.count("\n") == 1
-    for text in (*expected, "out.npz.unfinished keeps a run", "remove that folder to start anew"):
+    for text in (*expected, "out.npz.unfinished keeps a run", "remove it to start anew"):
         assert text in said
     assert said.count("another") == len(expected)
     assert listing() == before
