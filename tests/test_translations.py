@@ -199,6 +199,7 @@ SENTENCES = Sentences(
         ("'head' has 3 points", "3 Punkte hat 'head'"),
         ("head has 3 points; it is full", "3 Punkte hat Kopf; es ist voll"),
         ("left: it is full", "left: es ist voll"),
+        ("left: head has 3 points", "left: 3 Punkte hat Kopf"),
         ("head: it is full: head", "Kopf: es ist voll: head"),
         ("made, 3 kept", "gemacht, 3 behalten"),
         ("made onto x", "gemacht auf x"),

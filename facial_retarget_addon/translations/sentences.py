@@ -15,7 +15,9 @@ SENTENCE_JOINT, NAME_JOINT, LIST_JOINT = "; ", ": ", ", "
 """What stands between sentences in one line, between a name and what is said of it, and between phrases."""
 
 VALUE = rf"((?:(?!{SENTENCE_JOINT}).)*?)"
-"""A value is never more than one sentence."""
+"""A value is never more than one sentence ..."""
+FIRST = rf"((?:(?!{SENTENCE_JOINT}|{NAME_JOINT}).)*?)"
+"""... and where it begins one, no name of which the sentence is said stands before it."""
 
 Pattern = tuple[re.Pattern[str], str]
 
@@ -85,6 +87,8 @@ class _Value(str):
 def _regular(pattern: str) -> re.Pattern[str]:
     """The expression whose groups are the values; one that another follows at once ends where a word does."""
     pieces = [re.escape(words) + ("" if field is None else VALUE) for words, field, _, _ in Formatter().parse(pattern)]
+    if pieces[0] == VALUE:
+        pieces[0] = FIRST
     return re.compile("".join(pieces).replace(VALUE + VALUE, rf"(\S*){VALUE}"), re.DOTALL)
 
 

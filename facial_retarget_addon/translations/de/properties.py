@@ -245,7 +245,7 @@ TEXTS = {
     ),
     "Cache": "Zwischenspeicher",
     "File that the cache becomes": "Datei, die der Zwischenspeicher wird",
-    "Earlier Bake": "Früher Gebackenes",
+    "Earlier Bake": "Früheres",
     "What becomes of the bake that the target plays now": "Was aus dem wird, was das Ziel jetzt abspielt",
     "Its shape keys, curves and modifiers go": "Seine Formschlüssel, Kurven und Modifikatoren gehen",
     "It stays, turned off: play it again below. A cache gets a file of its own": (

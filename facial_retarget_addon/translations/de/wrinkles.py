@@ -16,7 +16,7 @@ TEXTS = {
     "Choose a folder for the wrinkle kit": "Einen Ordner für den Faltensatz wählen",
     "Wrinkles of": "Falten von",
     "Where the wrinkles come from": "Woher die Falten kommen",
-    "Retargeted Keys": "Übertragene Schlüssel",
+    "Retargeted Keys": "Übertragene",
     "The finest level of the shapes that Cloning gives the target, by the method of step 4": (
         "Die feinste Stufe der Formen, die Klonen dem Ziel gibt, nach der Methode von Schritt 4"
     ),
