@@ -6,7 +6,6 @@ from dataclasses import replace
 from math import radians
 from pathlib import Path
 
-import bpy
 from bpy.types import Context, Object
 
 from ..core.arrays import Progress
@@ -30,6 +29,7 @@ from .gains import write_gains
 from .heads import write_named_parts
 from .maps.map_output import map_output, show_map_output
 from .meshes import new_face
+from .paths import optional_path
 from .performance import read_frames, scene_rate
 from .points.base_object import show_triangles
 from .points.points import write_points
@@ -49,7 +49,8 @@ def save_job_steps(context: Context, path: Path) -> Steps[None]:
     frames = yield from part(read_frames(context, task.source, frame_times(context)), 0.0, 0.8)
     maps, bake = map_output(task), JobBake(task, heads[1])
     rate = scene_rate(context.scene) / task.bake.step
-    method, wanted = task.method, [_chosen(file) for file in (task.output, task.report, task.page)]
+    method = task.method
+    wanted = [optional_path(path, "file", "job", "Report") for path in (task.output, task.report, task.page)]
 
     def write(progress: Progress) -> Aside:
         progress(0.0, "Writing")
@@ -101,11 +102,6 @@ class _ExampleFiles(Beside):
             for role, face in (("source", problem.source), ("target", problem.target))
         )
         return ExampleFiles(name, source, target)
-
-
-def _chosen(path: str) -> Path | None:
-    """A path of the panel, or None where none is set; // means beside the .blend."""
-    return Path(bpy.path.abspath(path)) if path else None
 
 
 def load_job_steps(context: Context, path: Path, up: str) -> Steps[None]:

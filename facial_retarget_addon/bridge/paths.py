@@ -25,3 +25,8 @@ def chosen_path(path: str, what: str, use: str, where: str) -> Path:
     if path.startswith("//") and not bpy.data.filepath:
         raise RetargetError(f"{what} {path!r} lies beside the .blend, which is not saved yet; save it, or name another")
     return Path(bpy.path.abspath(path)).absolute()
+
+
+def optional_path(path: str, what: str, use: str, where: str) -> Path | None:
+    """As `chosen_path`, None where none is named."""
+    return chosen_path(path, what, use, where) if path else None

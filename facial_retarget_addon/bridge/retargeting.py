@@ -2,23 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import bpy
-from bpy.types import Context, PropertyGroup
+from bpy.types import Context, Object
 
 from ..core.arrays import Progress
 from ..core.base.regions import eye_separation
+from ..core.errors import RetargetError
 from ..core.level_retargeter import LevelMotion
+from ..core.methods.settings import CACHES
 from ..core.retarget import Result, level_motions, retarget
 from ..files.pages.report import report_json, report_page
-from ..files.whole import Aside, written_whole
+from ..files.whole import overwritten, place_faults, written_whole
 from .background import Steps, in_thread, part
-from .bakes.bake import bake_steps, read_wish
+from .bakes.bake import Wish, bake_steps, read_wish
+from .bakes.kept import free_file
 from .bakes.scene_cache import let_go
 from .heads import head_parts, read_head
 from .key_sets import check_targets
+from .paths import optional_path
 from .performance import read_frames
 from .preview.preview import stop_preview
 from .reports.findings import write_frame_findings
@@ -45,15 +50,16 @@ def retarget_steps(context: Context) -> Steps[dict[str, Any]]:
     problem = read_problem(context)
     yield 0.0, "Reading the faces"
     head = read_head(task.target)
-    check_targets((task.source, *head_parts(task.source)), head.things, over_bake=True)
+    sources = (task.source, *head_parts(task.source))
+    check_targets(sources, head.things, over_bake=True)
+    report_file, page_file = (optional_path(path, "file", "report", "Report") for path in (task.report, task.page))
+    _check_outputs(sources, head.things, wish, report_file, page_file)
     frames = frame_times(context)
     source = yield from part(read_frames(context, task.source, frames), 0.0, READING)
 
-    with_page = bool(task.page)
-
     def compute(progress: Progress) -> tuple[Result, bytes]:
         result = retarget(method, problem, settings, source, progress)
-        if not with_page:
+        if page_file is None:
             return result, b""
         progress(1.0, "Drawing the page")
         return result, report_page(result.report, problem, source, result.frames, result.levels)
@@ -64,7 +70,10 @@ def retarget_steps(context: Context) -> Steps[dict[str, Any]]:
     result.report["bake"] = bake.figures
     yield READING + COMPUTING + BAKING, "Writing"
     with let_go(bake.files), written_whole() as aside:
-        _add_report(aside, task, result, page)
+        if report_file is not None:
+            aside.place(report_file).write_bytes(report_json(result.report))
+        if page_file is not None:
+            aside.place(page_file).write_bytes(page)
         bake.add_files(aside)
     # What was previewed is there to stay now, and some kinds of bake leave no place for the preview's key.
     stop_preview()
@@ -94,9 +103,24 @@ def level_steps(context: Context) -> Steps[list[str]]:
     return [level.name for level in levels]
 
 
-def _add_report(aside: Aside, task: PropertyGroup, result: Result, page: bytes) -> None:
-    """Write the figures and the page where the panel says."""
-    if task.report:
-        aside.place(Path(bpy.path.abspath(task.report))).write_bytes(report_json(result.report))
-    if task.page:
-        aside.place(Path(bpy.path.abspath(task.page))).write_bytes(page)
+def _check_outputs(
+    sources: Sequence[Object], targets: Sequence[Object], wish: Wish, report: Path | None, page: Path | None
+) -> None:
+    """RetargetError, before anything is computed, if an output would replace another one or what a source plays."""
+    cache = free_file(targets, wish.cache_path(), wish.keep) if wish.settings.kind in CACHES else None
+    outputs = {"the report": report, "its page": page, "the cache": cache}
+    wanted = {name: path for name, path in outputs.items() if path is not None}
+    wrong = overwritten(_played_files(sources), wanted) + place_faults(wanted.values())
+    if wrong:
+        raise RetargetError("; ".join(wrong))
+
+
+def _played_files(things: Sequence[Object]) -> dict[str, Path]:
+    """The caches on disk that objects play: how messages name them -> their paths."""
+    played = {}
+    for modifier in (modifier for thing in things for modifier in thing.modifiers):
+        held = modifier.cache_file if modifier.type == "MESH_SEQUENCE_CACHE" else modifier
+        if modifier.type in ("MESH_CACHE", "MESH_SEQUENCE_CACHE") and held is not None and held.filepath:
+            name = f"what modifier {modifier.name!r} of {modifier.id_data.name!r} plays"
+            played[name] = Path(bpy.path.abspath(held.filepath, library=held.id_data.library))
+    return played

@@ -32,7 +32,8 @@ def frame_key_name(pattern: str, frame: float) -> str:
     if "\n" in pattern:
         raise RetargetError(f"the pattern of names {pattern!r} has a line break, expected a single line")
     whole, part = divmod(abs(frame), 1)
-    digits = f"{-int(whole) if frame < 0 else int(whole):0{len(holes.group())}d}"
+    sign = "-" if frame < 0 else ""
+    digits = f"{sign}{int(whole):0{max(len(holes.group()) - len(sign), 1)}d}"
     digits += f"{part:.3f}"[1:].rstrip("0") if part else ""
     name = pattern[: holes.start()] + digits + pattern[holes.end() :]
     if len(name.encode()) > LONGEST:
