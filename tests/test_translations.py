@@ -179,10 +179,12 @@ def fields(text: str) -> list[tuple[str, str]]:
 @pytest.mark.parametrize("name", LANGUAGES)
 def test_parts_of_a_language_agree(name: str) -> None:
     """One English text has one translation, whichever module it stands in."""
-    known: dict[str, str] = {}
-    for part in language(name).PARTS:
-        for english, text in part.TEXTS.items():
-            assert known.setdefault(english, text) == text, english
+    texts = language(name)
+    for parts, table in ((texts.PARTS, "TEXTS"), (texts.SAYING, "SENTENCES"), (texts.SAYING, "PHRASES")):
+        known: dict[str, str] = {}
+        for part in parts:
+            for english, text in getattr(part, table, {}).items():
+                assert known.setdefault(english, text) == text, f"{part.__name__}: {english}"
 
 
 SENTENCES = Sentences(

@@ -20,6 +20,12 @@ PARTS = (guide, panels, operators, export, properties, settings, points, wrinkle
 TEXTS: dict[str, str] = {english: german for part in PARTS for english, german in part.TEXTS.items()}
 """English text -> German text, with the same {fields}."""
 
-SENTENCES = sentences.SENTENCES | export.SENTENCES | wrinkles.SENTENCES | core.SENTENCES | files.SENTENCES
-PHRASES = sentences.PHRASES | core.PHRASES | files.PHRASES | points.TEXTS | wrinkles.PHRASES
+SAYING = (sentences, core, export, files, wrinkles)
+
+SENTENCES: dict[str, str] = {english: german for part in SAYING for english, german in part.SENTENCES.items()}
 """English pattern -> German pattern, as `translations.sentences` wants them."""
+
+PHRASES: dict[str, str] = points.TEXTS | {
+    english: german for part in SAYING for english, german in getattr(part, "PHRASES", {}).items()
+}
+"""The same for what is only said as a value."""

@@ -136,12 +136,6 @@ SENTENCES = {
         "Texturkoordinaten von ({}, {}) bis ({}, {}) liegen in keiner UDIM-Kachel; sie beginnen bei (0, 0)"
     ),
     "texture coordinates are NaN or infinite, expected finite ones": "Texturkoordinaten sind NaN oder unendlich",
-    "none of the {} shape keys turns normals by {} degrees, the most is {}; expected keys with wrinkles that the light "
-    "mesh lacks": (
-        "keiner der {} Formschlüssel dreht Normalen um {} Grad, höchstens um {}; gebraucht werden Schlüssel mit "
-        "Falten, "
-        "die der leichten Masche fehlen"
-    ),
     # The MPEG-4 face.
     "the head's motion needs {} points that no FAP moves, such as corners of the eyes and hairline, but the face has "
     "{}": (

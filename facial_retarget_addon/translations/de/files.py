@@ -21,10 +21,6 @@ SENTENCES = {
     "folder {} holds {}; expected a new folder, or one that holds {} files only, since it is replaced": (
         "Ordner {} enthält {}; er wird ersetzt: einen neuen nehmen, oder einen, in dem nur {}-Dateien sind"
     ),
-    "folder {} holds {}; expected a new folder, or one that holds a wrinkle kit and nothing else, since it is "
-    "replaced": (
-        "Ordner {} enthält {}; er wird ersetzt: einen neuen nehmen, oder einen, in dem nur ein Faltensatz ist"
-    ),
     "{} ends in {}, expected {} for {}": "{} endet auf {}; für {3} muss es {2} sein",
     "pictures of depth {} are not known, expected one of {}": "Bilder der Tiefe {} gibt es nicht; es gibt {}",
     # Faces.
