@@ -13,7 +13,7 @@ from ...core.arrays import FloatArray, Progress
 from ...core.errors import RetargetError
 from ...core.methods.settings import CACHES, BakeSettings
 from ...core.reduction.bake_keys import BakedKeys, compact_keys, onto_rig
-from ...files.whole import Aside
+from ...files.whole import Aside, check_place
 from ..background import Steps, in_thread
 from ..heads import Head
 from ..paths import chosen_path
@@ -45,7 +45,7 @@ class Wish(NamedTuple):
         kind = self.settings.kind
         if not getattr(bpy.app.build_options, kind, True):
             raise RetargetError(f"this Blender was built without {kind}, expected another kind of bake")
-        return with_suffix(chosen_path(self.cache, "file", "cache", "Bake and Export"), kind)
+        return with_suffix(chosen_path(self.cache, "file", "cache", "Bake"), kind)
 
 
 def read_wish(task: PropertyGroup) -> Wish:
@@ -53,7 +53,7 @@ def read_wish(task: PropertyGroup) -> Wish:
     bake = task.bake
     wish = Wish(read_group(BakeSettings, bake.how), bake.pattern, bake.cache, bake.earlier == "keep")
     if wish.settings.kind in CACHES:
-        wish.cache_path()
+        check_place(wish.cache_path())
     return wish
 
 

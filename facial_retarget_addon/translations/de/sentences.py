@@ -621,7 +621,7 @@ PHRASES = {
     "folder": "Ordner",
     "cache": "den Zwischenspeicher",
     "normal maps": "die Normalmaps",
-    "Bake and Export": "Backen und Exportieren",
+    "Bake": "Backen",
     "Normal Maps": "Normalmaps",
     " onto {} heads": " auf {} Köpfe",
     "exactly": "genau",
