@@ -29,7 +29,8 @@ class FACIAL_RETARGET_UL_findings(UIList):
     ) -> None:
         """Draw a row."""
         row = layout.split(factor=NAMES)
-        row.label(text=item.name, icon=ICONS[item.kind], translate=False)
+        name = item.name if item.kind == "KEY" else f"{item.frame:g}"
+        row.label(text=name, icon=ICONS[item.kind], translate=False)
         figures = row.row()
         for *_, name in COLUMNS:
             value = round(getattr(item, name))

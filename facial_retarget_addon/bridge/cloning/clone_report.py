@@ -17,6 +17,8 @@ OF_SOURCE, PERCENT = "source_", "_percent"
 """How figures are named that say what the source itself shows, and those that are percents."""
 SLIGHT = 0.5
 """Trouble below this is not worth a word."""
+SEEN = {"lip_gap_percent": 3.0, "lid_gap_percent": 5.0}
+"""Gaps from which an eye that does not look for them sees them: of less no frame or shape key is in trouble."""
 
 
 def worst_first(rows: Mapping[str, Mapping[str, Any]]) -> list[str]:
@@ -32,6 +34,11 @@ def trouble(row: Mapping[str, Any]) -> dict[str, float]:
         for name, value in figures.items()
         if not name.startswith(OF_SOURCE)
     }
+
+
+def in_trouble(row: Mapping[str, Any]) -> bool:
+    """Whether an artist should look at a row."""
+    return any(value >= SEEN.get(name, SLIGHT) for name, value in trouble(row).items())
 
 
 def figures_note(row: Mapping[str, Any]) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from base64 import b85decode, b85encode
+from bisect import bisect, insort
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 from zlib import compress, decompress
@@ -15,7 +16,7 @@ from ...core.arrays import IntArray
 from ...core.errors import RetargetError
 from ...core.quality import Spots
 from ...core.retarget import Result
-from ..cloning.clone_report import SLIGHT, figures_note, trouble
+from ..cloning.clone_report import figures_note, in_trouble, trouble
 from ..shape_keys import find_key
 
 PLACES = {
@@ -154,10 +155,9 @@ def unpacked(text: str) -> IntArray:
 
 def _add(face: PropertyGroup, name: str, found: Finding, frame: float | None) -> None:
     """Add a finding that is worth a word."""
-    figures = trouble(found.row)
-    if not any(value >= SLIGHT for value in figures.values()):
+    if not in_trouble(found.row):
         return
-    finding = face.findings.add()
+    figures, finding = trouble(found.row), face.findings.add()
     finding.name, finding.kind, finding.frame = name, "KEY" if frame is None else "FRAME", frame or 0
     finding.note, finding.trouble = figures_note(found.row), sum(figures.values())
     finding.torn = int(figures.get("torn_edges", 0))
@@ -179,6 +179,8 @@ def _sort(face: PropertyGroup) -> None:
     face.findings_vertices = len(face.id_data.data.vertices)
     trouble_of = [finding.trouble for finding in face.findings]
     order = sorted(range(len(trouble_of)), key=lambda row: -trouble_of[row])
+    placed: list[int] = []
     for place, row in enumerate(order):
-        now = row + sum(earlier > row for earlier in order[:place])
-        face.findings.move(now, place)
+        # Each one that was moved to the front from behind it has pushed it back by one.
+        face.findings.move(row + place - bisect(placed, row), place)
+        insort(placed, row)

@@ -61,6 +61,6 @@ def still_components(
     found = [{"vertices": int(size[k]), "first_vertex": int(first[k])} for k in np.flatnonzero(still)]
     total = sum(part["vertices"] for part in found)
     kinds = ", ".join(dict.fromkeys(row["kind"] for row in rows if row["does"] == "stays"))
-    known = f" ({kinds})" if kinds else ""
-    warning = f"{len(found)} parts of the target ({total} vertices) hold no feature point and stay put{known}"
+    known = f", {kinds}" if kinds else ""
+    warning = f"parts of the target that hold no feature point and stay put: {len(found)} ({total} vertices){known}"
     return found, [warning] if found else []

@@ -510,8 +510,8 @@ SENTENCES = {
     "NLA track {} of {} stays as it is": "NLA-Spur {} von {} bleibt, wie sie ist",
     "shapes that do not move the source: {}": "Formen, die die Quelle nicht bewegen: {}",
     "shapes that hardly move the target: {}": "Formen, die das Ziel kaum bewegen: {}",
-    "{} parts of the target ({} vertices) hold no feature point and stay put{}": (
-        "{} Teile des Ziels ({} Eckpunkte) tragen keinen Merkmalspunkt und bleiben stehen{:said}"
+    "parts of the target that hold no feature point and stay put: {} ({} vertices){}": (
+        "Teile des Ziels, die keinen Merkmalspunkt tragen und stehen bleiben: {} ({} Eckpunkte){:said}"
     ),
     "{} means something only together with {}, but {} is not among the shapes: it was cloned alone": (
         "{} bedeutet nur zusammen mit {} etwas, aber {} ist nicht unter den Formen: allein geklont"
@@ -574,7 +574,7 @@ SENTENCES = {
 """English pattern -> German pattern."""
 
 PHRASES = {
-    " ({})": " ({:said})",
+    ", {}": ", {:said}",
     "other": "sonstige",
     "{} and {}": "{:said} und {:said}",
     "behind the mouth": "hinter dem Mund",

@@ -141,7 +141,7 @@ for name in roles:
 bpy.ops.facial_retarget.add_parts()
 bpy.ops.facial_retarget.add_parts()
 assert {entry.thing.name: entry.role for entry in face.facial_retarget.parts} == roles
-assert set(part("properties").PART_ROLES) == set(part("core.parts.kinds").NAMED_KINDS)
+assert set(part("properties.parts").PART_ROLES) == set(part("core.parts.kinds").NAMED_KINDS)
 face.facial_retarget.active_part = 2
 bpy.ops.facial_retarget.remove_part()
 assert "eyelashes_l" not in [entry.thing.name for entry in face.facial_retarget.parts]
