@@ -147,17 +147,14 @@ SENTENCES = {
         "unbenutzte FAPs sollen als {} gelten; es gibt 'hold' und 'zero'"
     ),
     "the unit {} of the neutral face is {} ({}), expected a length greater than zero: eyes open, mouth closed, and "
-    "left "
-    "points on the subject's left": (
+    "left points on the subject's left": (
         "das Maß {} des neutralen Gesichts ist {} ({}) und muss größer als null sein: Augen offen, Mund geschlossen, "
-        "und "
-        "linke Punkte auf der linken Seite der Person"
+        "und linke Punkte auf der linken Seite der Person"
     ),
     "no left and right MPEG-4 points that belong together are among the {} given, expected at least one pair such as "
     "8.3 and 8.4": (
         "unter den {} angegebenen sind keine zusammengehörigen linken und rechten MPEG-4-Punkte; mindestens ein Paar "
-        "wie "
-        "8.3 und 8.4 wird gebraucht"
+        "wie 8.3 und 8.4 wird gebraucht"
     ),
     "none of the {} feature points has an MPEG-4 name, expected names such as 2.1": (
         "keiner der {} Merkmalspunkte hat einen MPEG-4-Namen wie 2.1"
@@ -165,14 +162,13 @@ SENTENCES = {
     # Markers.
     "marker assignment: {} assigned markers have points on the face, expected at least {} to propose others by their "
     "places": (
-        "Markerzuordnung: {} zugeordnete Marker haben Punkte auf dem Gesicht; mindestens {} braucht es, um andere nach "
-        "ihrer Lage vorzuschlagen"
+        "Markerzuordnung: {} zugeordnete Marker haben Punkte auf dem Gesicht; mindestens {} braucht es, um andere "
+        "nach ihrer Lage vorzuschlagen"
     ),
     "markers: left and right seem to be swapped, the face would look backwards; expected left points on the actor's "
     "left": (
         "Marker: links und rechts scheinen vertauscht, das Gesicht sähe nach hinten; linke Punkte gehören auf die "
-        "linke "
-        "Seite des Darstellers"
+        "linke Seite des Darstellers"
     ),
     "markers: FAP {} has the gain {}, expected a finite gain of a FAP that a marker measures": (
         "Marker: FAP {} hat die Stärke {}; gebraucht wird eine endliche, für einen FAP, den ein Marker misst"
@@ -190,11 +186,10 @@ SENTENCES = {
     "head motion: the {} markers of the neutral frame lie on one line": (
         "Kopfbewegung: die {} Marker des neutralen Bildes liegen auf einer Linie"
     ),
-    "head motion: the rigid markers in {} lie on one line or in one place, which leaves the head's turn open; expected "
-    "three that span a triangle": (
+    "head motion: the rigid markers in {} lie on one line or in one place, which leaves the head's turn open; "
+    "expected three that span a triangle": (
         "Kopfbewegung: die starren Marker liegen auf einer Linie oder an einer Stelle ({:said}), sodass die Drehung "
-        "des "
-        "Kopfes offen bleibt; drei müssen ein Dreieck aufspannen"
+        "des Kopfes offen bleibt; drei müssen ein Dreieck aufspannen"
     ),
     "head motion: frame {} shows {} of the {} rigid markers, expected at least {}": (
         "Kopfbewegung: Bild {} zeigt {} der {} starren Marker; mindestens {} müssen es sein"

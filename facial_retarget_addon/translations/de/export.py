@@ -7,7 +7,7 @@ TEXTS = {
         "Kurve; Esc hält an"
     ),
     "Preparing": "Bereitet vor",
-    "Samples": "Abtastungen",
+    "Samples": "Abtastwerte",
     "How often each frame is sampled; 0 for as often as the keyframes between frames ask for": (
         "Wie oft jedes Bild abgetastet wird; 0 für so oft, wie die Schlüsselbilder zwischen den Bildern verlangen"
     ),
@@ -65,8 +65,8 @@ TEXTS = {
     "Shape keys become moving vertices, without sliders: {names}": (
         "Formschlüssel werden zu bewegten Eckpunkten, ohne Regler: {names}"
     ),
-    "The motion that {modifier} plays on {thing} is lost: {form} takes shape keys only. Bake some, or "
-    "export moving vertices": (
+    "The motion that {modifier} plays on {thing} is lost: {form} takes shape keys only. Bake some, or export moving "
+    "vertices": (
         "Die Bewegung, die {modifier} auf {thing} abspielt, geht verloren: {form} nimmt nur Formschlüssel. Solche "
         "backen, oder bewegte Eckpunkte exportieren"
     ),
@@ -122,8 +122,8 @@ SENTENCES = {
     ),
     "Writing {}": "Schreibt {}",
     "modifier {} of object {} plays a cache by the scene's rate, expected 1 sample per frame for USD, not {}": (
-        "Modifikator {} von Objekt {} spielt einen Zwischenspeicher nach der Rate der Szene, erwartet wird 1 Abtastung "
-        "je Bild für USD, nicht {}"
+        "Modifikator {} von Objekt {} spielt einen Zwischenspeicher nach der Rate der Szene, erwartet wird 1 "
+        "Abtastung je Bild für USD, nicht {}"
     ),
     "scene {} maps its time to {}, expected at most {} for {} samples per frame": (
         "Szene {} dehnt ihre Zeit auf {}, erwartet wird höchstens {} bei {} Abtastungen je Bild"

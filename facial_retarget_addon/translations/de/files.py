@@ -199,11 +199,9 @@ SENTENCES = {
         "{} enthält keine Marker, sodass die Markerzuordnung {} nichts dazu sagt"
     ),
     "{}: none of the {} markers is named after a feature point, such as {}; expected names such as 8.3, L_brow_inner "
-    "or "
-    "mouth_corner_r, or a marker map": (
+    "or mouth_corner_r, or a marker map": (
         "{}: keiner der {} Marker heißt nach einem Merkmalspunkt, etwa {}; gebraucht werden Namen wie 8.3, "
-        "L_brow_inner "
-        "oder mouth_corner_r, oder eine Markerzuordnung"
+        "L_brow_inner oder mouth_corner_r, oder eine Markerzuordnung"
     ),
     "{} of {} markers do not say by their names where they sit: {}": (
         "{} von {} Markern sagen mit ihren Namen nicht, wo sie sitzen: {}"

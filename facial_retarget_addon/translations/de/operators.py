@@ -71,8 +71,8 @@ TEXTS = {
     "Where the surface is closest to it, in world space": "Wo ihm die Oberfläche am nächsten ist, im Weltraum",
     "Accept Hovered Point": "Punkt unter der Maus annehmen",
     "Place the proposed feature point under the mouse where it is proposed, or else the one whose turn it is": (
-        "Den vorgeschlagenen Merkmalspunkt unter der Maus setzen, wo er vorgeschlagen ist, sonst den, der an der Reihe "
-        "ist"
+        "Den vorgeschlagenen Merkmalspunkt unter der Maus setzen, wo er vorgeschlagen ist, sonst den, der an der "
+        "Reihe ist"
     ),
     "The proposed point; the one whose turn it is if none is named": (
         "Der vorgeschlagene Punkt; ohne Namen der, der an der Reihe ist"
@@ -100,8 +100,7 @@ TEXTS = {
     "Guess Points": "Punkte raten",
     "Propose all missing feature points: by those that are placed, or by the shape of the head alone; Esc stops": (
         "Alle fehlenden Merkmalspunkte vorschlagen: nach denen, die gesetzt sind, oder allein nach der Form des "
-        "Kopfes; "
-        "Esc hält an"
+        "Kopfes; Esc hält an"
     ),
     "Accept Point": "Punkt annehmen",
     "Place one proposed feature point where it is proposed": (
@@ -180,8 +179,7 @@ TEXTS = {
     "Create Example Shape Keys": "Beispiel-Formschlüssel erstellen",
     "Give both faces the shape keys of the seven examples: the Basis is the neutral one, the others wait for you": (
         "Beiden Gesichtern die Formschlüssel der sieben Beispiele geben: die Basis ist das neutrale, die anderen "
-        "warten "
-        "darauf, geformt zu werden"
+        "warten darauf, geformt zu werden"
     ),
     "Add Example": "Beispiel hinzufügen",
     "Use a shape key that both faces have as an example": (
@@ -195,15 +193,14 @@ TEXTS = {
     "Choose an example in the list": "Ein Beispiel in der Liste wählen",
     "Sculpt Example": "Beispiel formen",
     "Sculpt this example: Sculpt Mode on its shape key, which alone is shown; Done brings back what was before": (
-        "Dieses Beispiel formen: Skulpturmodus auf seinem Formschlüssel, der allein gezeigt wird; Fertig stellt wieder "
-        "her, was vorher war"
+        "Dieses Beispiel formen: Skulpturmodus auf seinem Formschlüssel, der allein gezeigt wird; Fertig stellt "
+        "wieder her, was vorher war"
     ),
     "Its name; the chosen one of the list if empty": "Sein Name; leer das in der Liste gewählte",
     "Sculpt {example} on {face}: Sculpt Mode on its shape key, which alone is shown; Done brings back what was "
     "before": (
         "{example} auf {face} formen: Skulpturmodus auf dem Formschlüssel, der allein gezeigt wird; Fertig stellt "
-        "wieder "
-        "her, was vorher war"
+        "wieder her, was vorher war"
     ),
     "Which face is sculpted": "Welches Gesicht geformt wird",
     "Done": "Fertig",
@@ -351,8 +348,8 @@ TEXTS = {
     ),
     "Make Normal Maps": "Normalmaps erstellen",
     "Make a normal map of each frame, which gives a light mesh the wrinkles of the finest level; Esc stops": (
-        "Von jedem Bild eine Normalmap erstellen, die einer leichten Masche die Falten der feinsten Stufe gibt; "
-        "Esc hält an"
+        "Von jedem Bild eine Normalmap erstellen, die einer leichten Masche die Falten der feinsten Stufe gibt; Esc "
+        "hält an"
     ),
     "Choose a folder for the maps": "Einen Ordner für die Maps wählen",
     "Load Job": "Auftrag laden",
@@ -377,8 +374,8 @@ TEXTS = {
     # Shape keys from head to head.
     "Clone Shape Keys": "Formschlüssel klonen",
     "Give one or several heads the shape keys of another, all objects of the head in one go; Esc stops": (
-        "Einem oder mehreren Köpfen die Formschlüssel eines anderen geben, allen Objekten des Kopfes auf einmal; "
-        "Esc hält an"
+        "Einem oder mehreren Köpfen die Formschlüssel eines anderen geben, allen Objekten des Kopfes auf einmal; Esc "
+        "hält an"
     ),
     "Mark Changed Keys": "Geänderte Schlüssel markieren",
     "Mark the cloned shape keys that you have changed as corrected; Re-solve does it by itself too": (
@@ -410,8 +407,7 @@ TEXTS = {
     "Load Shape Keys": "Formschlüssel laden",
     "Give the active face and its parts the shapes of a facial animation table (.json) or arrays (.npz); Esc stops": (
         "Dem aktiven Gesicht und seinen Teilen die Formen einer Gesichtsanimationstabelle (.json) oder von Arrays "
-        "(.npz) "
-        "geben; Esc hält an"
+        "(.npz) geben; Esc hält an"
     ),
     "Save Shape Keys": "Formschlüssel speichern",
     "Save the shape keys of the active face and its parts: an animation table (.json) or arrays (.npz); Esc stops": (

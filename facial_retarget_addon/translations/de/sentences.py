@@ -147,8 +147,7 @@ SENTENCES = {
         "{:said} hat {} Eckpunkte und {} Flächen; eine Oberfläche wird gebraucht"
     ),
     "object {} has {} vertices after its modifiers ({}), expected the {} of its mesh; turn off the modifier that adds "
-    "or "
-    "removes vertices": (
+    "or removes vertices": (
         "Objekt {0} hat nach seinen Modifikatoren ({2}) {1} Eckpunkte statt der {3} seiner Masche; den Modifikator "
         "ausschalten, der Eckpunkte hinzufügt oder entfernt"
     ),
@@ -170,10 +169,9 @@ SENTENCES = {
     "object {} has shape keys of its own, {} among them, which absolute keys would turn off; expected another kind of "
     "bake": ("Objekt {} hat eigene Formschlüssel, darunter {}, die absolute abschalten würden; anders backen"),
     "object {} has no shape key that a bake onto its rig could animate, expected some that move a vertex, are not "
-    "muted "
-    "and have no driver": (
-        "Objekt {} hat keinen Formschlüssel, den Backen auf sein Rig bewegen könnte: einen, der einen Eckpunkt bewegt, "
-        "nicht stumm ist und keinen Treiber hat"
+    "muted and have no driver": (
+        "Objekt {} hat keinen Formschlüssel, den Backen auf sein Rig bewegen könnte: einen, der einen Eckpunkt "
+        "bewegt, nicht stumm ist und keinen Treiber hat"
     ),
     "the pattern of names {} has no #, expected some where the frame's number goes": (
         "das Muster der Namen {} hat kein #; es steht, wo die Nummer des Bildes hingehört"
@@ -241,16 +239,15 @@ SENTENCES = {
     "object {} has no feature point to mirror among {}, expected one that has a partner on the other half of the "
     "face": (
         "Objekt {} hat unter {:said} keinen Merkmalspunkt zum Spiegeln: einen mit einem Partner auf der anderen "
-        "Hälfte des "
-        "Gesichts"
+        "Hälfte des Gesichts"
     ),
     "no proposed point of object {} is chosen, expected one of the list": (
         "kein vorgeschlagener Punkt von Objekt {} ist gewählt; einen in der Liste wählen"
     ),
     "the mesh of object {} has changed, and the surface below feature points {} is gone; press Refresh Points, then "
     "place them anew or skip them": (
-        "die Masche von Objekt {} hat sich geändert, und die Oberfläche unter den Merkmalspunkten {} fehlt; auf Punkte "
-        "erneuern drücken, dann sie neu setzen oder überspringen"
+        "die Masche von Objekt {} hat sich geändert, und die Oberfläche unter den Merkmalspunkten {} fehlt; auf "
+        "Punkte erneuern drücken, dann sie neu setzen oder überspringen"
     ),
     "the mesh of object {} has changed, and the surface below feature points {} is gone; press Refresh Points first": (
         "die Masche von Objekt {} hat sich geändert, und die Oberfläche unter den Merkmalspunkten {} fehlt; erst auf "
@@ -277,18 +274,16 @@ SENTENCES = {
         "Merkmalspunkt {} von Objekt {} hat Gewichte, die zusammen nichts ergeben"
     ),
     "object {} has a modifier that makes its vertices anew, so that no place on it is one of its mesh; turn the "
-    "modifier "
-    "off in the viewport while you place points": (
-        "Objekt {} hat einen Modifikator, der seine Eckpunkte neu macht, sodass keine Stelle darauf eine seiner Masche "
-        "ist; ihn im Ansichtsfenster ausschalten, solange Punkte gesetzt werden"
+    "modifier off in the viewport while you place points": (
+        "Objekt {} hat einen Modifikator, der seine Eckpunkte neu macht, sodass keine Stelle darauf eine seiner "
+        "Masche ist; ihn im Ansichtsfenster ausschalten, solange Punkte gesetzt werden"
     ),
     "object {} has no feature points to copy": "Objekt {} hat keine Merkmalspunkte zum Kopieren",
     "no other mesh object is selected, expected one that shall get the points of {}": (
         "kein anderes Maschenobjekt ist ausgewählt; eines auswählen, das die Punkte von {} bekommen soll"
     ),
     "object {} has another topology than {}, and {} feature points in common with it, expected at least {}: place "
-    "them, "
-    "or guess and accept them, then copy the others": (
+    "them, or guess and accept them, then copy the others": (
         "Objekt {} hat eine andere Topologie als {} und {} Merkmalspunkte mit ihm gemeinsam; mindestens {} müssen es "
         "sein: sie setzen, oder raten und annehmen, dann die anderen kopieren"
     ),
@@ -333,8 +328,8 @@ SENTENCES = {
     ),
     # The base mesh.
     "object {} has no text attribute {} on its vertices, expected an object that Show Base Mesh has made": (
-        "Objekt {} hat kein Text-Attribut {} auf seinen Eckpunkten; ein Objekt nehmen, das Basismasche zeigen erstellt "
-        "hat"
+        "Objekt {} hat kein Text-Attribut {} auf seinen Eckpunkten; ein Objekt nehmen, das Basismasche zeigen "
+        "erstellt hat"
     ),
     "base object {} has polygons of {} corners, expected triangles": (
         "Basisobjekt {} hat Polygone mit {} Ecken; Dreiecke werden gebraucht"
@@ -434,8 +429,8 @@ SENTENCES = {
     "material {} shows the normal map on {} too": "Material {} zeigt die Normalmap auch auf {}",
     "object {} has flat faces, sharp edges or custom normals: the maps, which are made for smooth shading, look wrong "
     "there": (
-        "Objekt {} hat flache Flächen, scharfe Kanten oder eigene Normalen: die Maps, für weiche Schattierung gemacht, "
-        "sehen dort falsch aus"
+        "Objekt {} hat flache Flächen, scharfe Kanten oder eigene Normalen: die Maps, für weiche Schattierung "
+        "gemacht, sehen dort falsch aus"
     ),
     "material {} {}: the normal map is not wired there": (
         "Material {} {:said}: die Normalmap ist dort nicht angeschlossen"
@@ -527,8 +522,8 @@ SENTENCES = {
     "the source does not move: all its frames are the neutral face": (
         "die Quelle bewegt sich nicht: alle ihre Bilder sind das neutrale Gesicht"
     ),
-    "the source moves rigidly: its frames are head motion only, expected a face that acts (was the face baked, or only "
-    "the head that carries it?)": (
+    "the source moves rigidly: its frames are head motion only, expected a face that acts (was the face baked, or "
+    "only the head that carries it?)": (
         "die Quelle bewegt sich starr: ihre Bilder sind nur Kopfbewegung, kein Gesicht, das spielt (wurde das Gesicht "
         "gebacken, oder nur der Kopf, der es trägt?)"
     ),
@@ -565,8 +560,8 @@ SENTENCES = {
     "level {} over a base of {} points means about {} vertices, expected at most {}; use fewer levels": (
         "Stufe {} über einer Basis aus {} Punkten heißt etwa {} Eckpunkte, höchstens {} gehen; weniger Stufen nehmen"
     ),
-    "left and right do not mirror each other in the mesh, and none of the points are pairs of left and right: expected "
-    "such points, or polygons that mirror themselves": (
+    "left and right do not mirror each other in the mesh, and none of the points are pairs of left and right: "
+    "expected such points, or polygons that mirror themselves": (
         "links und rechts spiegeln sich in der Masche nicht, und keine Punkte sind Paare von links und rechts: solche "
         "Punkte setzen, oder Polygone nehmen, die sich spiegeln"
     ),

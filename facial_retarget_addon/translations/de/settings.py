@@ -49,8 +49,7 @@ TEXTS = {
     "Read": "Lesen",
     "track: the source keeps its topology and its points are followed; pierce: every frame is pierced anew": (
         "Verfolgen: die Quelle behält ihre Topologie, und ihre Punkte werden verfolgt; Durchstoßen: jedes Bild wird "
-        "neu "
-        "durchstoßen"
+        "neu durchstoßen"
     ),
     "Track": "Verfolgen",
     "Pierce": "Durchstoßen",
@@ -73,8 +72,8 @@ TEXTS = {
     # Motion cloning.
     "local: one scale for the heads, motion turns with the surface; regional: every region by its own size; "
     "compliant: that along the axes of the heads, as MPEG-4's parameters want it": (
-        "Lokal: ein Maßstab für die Köpfe, Bewegung dreht sich mit der Oberfläche; Regional: jeder Bereich nach seiner "
-        "Größe; Konform: dies entlang der Achsen der Köpfe, wie die Parameter von MPEG-4 es wollen"
+        "Lokal: ein Maßstab für die Köpfe, Bewegung dreht sich mit der Oberfläche; Regional: jeder Bereich nach "
+        "seiner Größe; Konform: dies entlang der Achsen der Köpfe, wie die Parameter von MPEG-4 es wollen"
     ),
     "Regional": "Regional",
     "Compliant": "Konform",
@@ -101,8 +100,8 @@ TEXTS = {
     "Pierced": "Durchstoßen",
     "Lifting": "Lifting",
     "disc: wavelets nearly orthogonal to the coarser levels; integral: wavelets without a mean, for comparison": (
-        "Scheibe: Wavelets, die fast rechtwinklig zu den gröberen Stufen sind; Integral: Wavelets ohne Mittelwert, zum "
-        "Vergleich"
+        "Scheibe: Wavelets, die fast rechtwinklig zu den gröberen Stufen sind; Integral: Wavelets ohne Mittelwert, "
+        "zum Vergleich"
     ),
     "Disc": "Scheibe",
     "Integral": "Integral",

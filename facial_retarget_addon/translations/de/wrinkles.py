@@ -43,8 +43,8 @@ SENTENCES = {
     "material {} {}: the wrinkle kit is not wired there": (
         "Material {} {:said}: der Faltensatz ist dort nicht angeschlossen"
     ),
-    "none of the {} shape keys turns normals by {} degrees, the most is {}; expected keys with wrinkles that the light "
-    "mesh lacks": (
+    "none of the {} shape keys turns normals by {} degrees, the most is {}; expected keys with wrinkles that the "
+    "light mesh lacks": (
         "keiner der {} Formschlüssel dreht Normalen um {} Grad, höchstens um {}; Schlüssel mit Falten wählen, die der "
         "leichten Masche fehlen"
     ),
