@@ -29,7 +29,7 @@ class OnBakes:
 
 
 class FACIAL_RETARGET_OT_play_bake(OnBakes, Operator):
-    """Play this earlier bake again; the one that plays now is kept"""
+    """Play this earlier bake again; the one that plays now is kept, and a live preview ends"""
 
     bl_idname = "facial_retarget.play_bake"
     bl_label = "Play Bake"
@@ -40,8 +40,10 @@ class FACIAL_RETARGET_OT_play_bake(OnBakes, Operator):
         """Turn one on and the other off."""
         from ..facial_retarget_addon.bridge.bakes.kept import play_bake
         from ..facial_retarget_addon.bridge.heads import head_parts
+        from ..facial_retarget_addon.bridge.preview.preview import stop_preview
 
         target = context.scene.facial_retarget.target
+        stop_preview()
         play_bake([target, *head_parts(target)], self.number)
         return {"FINISHED"}
 

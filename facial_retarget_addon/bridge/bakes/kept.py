@@ -189,7 +189,8 @@ def _keep_keys(thing: Object, item: PropertyGroup, action: Action | str) -> Acti
             action.use_fake_user = True
         slot = action.slots.new(id_type="KEY", name=keys.name)
         item.action, item.slot = action, slot.identifier
-        _move_curves(bag, ensure_bag(action, slot), paths)
+        _copy_curves(bag, ensure_bag(action, slot), paths)
+        remove_curves(bag, set(paths))
     for old, new in names.items():
         key = keys.key_blocks[old]
         key.name, key.mute = new, True
@@ -227,12 +228,12 @@ def _play_keys(thing: Object, item: PropertyGroup, shared: Action | None) -> Act
         return None
     bag = ensure_curves(keys, f"{keys.name} retargeted", shared)
     remove_curves(bag, set(paths.values()))
-    _move_curves(kept, bag, paths)
+    _copy_curves(kept, bag, paths)  # a copy of the object may keep the same action
     return keys.animation_data.action
 
 
-def _move_curves(one: ActionChannelbag, other: ActionChannelbag, paths: dict[str, str]) -> None:
-    """Move the curves of some data paths from one place to another, under other paths."""
-    for curve in [curve for curve in one.fcurves if curve.data_path in paths]:
-        copy_curve(curve, other, paths[curve.data_path])
-        one.fcurves.remove(curve)
+def _copy_curves(one: ActionChannelbag, other: ActionChannelbag, paths: dict[str, str]) -> None:
+    """Copy the curves of some data paths from one place to another, under other paths."""
+    for curve in one.fcurves:
+        if curve.data_path in paths:
+            copy_curve(curve, other, paths[curve.data_path])

@@ -327,8 +327,8 @@ TEXTS = {
     ),
     "The target has no bake": "Das Ziel hat nichts Gebackenes",
     "Play Bake": "Gebackenes abspielen",
-    "Play this earlier bake again; the one that plays now is kept": (
-        "Dieses früher Gebackene wieder abspielen; was jetzt spielt, bleibt erhalten"
+    "Play this earlier bake again; the one that plays now is kept, and a live preview ends": (
+        "Dieses früher Gebackene wieder abspielen; was jetzt spielt, bleibt erhalten, und eine Live-Vorschau endet"
     ),
     "Remove Bake": "Gebackenes entfernen",
     "Remove this bake: its shape keys, curves and modifiers; files of a cache stay, and other bakes": (
