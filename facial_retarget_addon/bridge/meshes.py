@@ -15,7 +15,10 @@ from ..core.arrays import FloatArray, IntArray
 from ..core.errors import RetargetError
 from ..core.mesh import TriMesh
 from ..files.mesh_file import MeshFile
+from .key_sets import shortened
 
+LONGEST_NAME = 63 if bpy.app.version < (5, 0) else 255
+"""Bytes that Blender keeps of a datablock's name."""
 EVEN = 1e-4
 """Scales that differ by less, as a share, count as even."""
 
@@ -145,6 +148,11 @@ def evaluated_positions(thing: Object, depsgraph: Depsgraph) -> FloatArray:
     flat = np.empty(3 * wanted, np.float32)
     mesh.attributes["position"].data.foreach_get("vector", flat)
     return to_face_space(thing, flat.reshape(-1, 3))
+
+
+def name_beside(thing: Object, ending: str) -> str:
+    """Name of an object that is made for another one and found again by it: no longer than Blender keeps."""
+    return shortened(thing.name, LONGEST_NAME - len(ending)) + ending
 
 
 def new_object(name: str, vertices: FloatArray, counts: IntArray, corners: IntArray) -> Object:

@@ -14,6 +14,7 @@ from ...core.methods.settings import CACHES
 from ...files.frames import add_frames
 from ...files.whole import Aside
 from ..heads import Head
+from ..key_sets import LONGEST, shortened
 from .frames import OwnFrames, moved_objects, remove_bake, time_step
 from .names import MODIFIER
 from .scene_cache import Played, add_scene_cache, load_cache, names_inside, object_path
@@ -43,10 +44,23 @@ def cache_places(head: Head, path: Path, frames: FloatArray) -> dict[Object, Pla
     things = moved_objects(head, frames)
     if path.suffix not in (".pc2", ".mdd"):
         return {thing: Place(path, name) for thing, name in zip(things, names_inside(things), strict=True)}
-    names = [f"{path.stem}.{bpy.path.clean_name(thing.name)}{path.suffix}" for thing in things[1:]]
+    names = [f"{path.stem}.{name}{path.suffix}" for name in _file_names(things[1:])]
     return {things[0]: Place(path)} | {
         thing: Place(path.with_name(name)) for thing, name in zip(things[1:], names, strict=True)
     }
+
+
+def _file_names(things: Sequence[Object]) -> list[str]:
+    """Names of objects as parts of files' names, told apart on systems too that know no capital letters."""
+    names: dict[str, str] = {}
+    for thing in things:
+        stem = name = shortened(bpy.path.clean_name(thing.name), LONGEST)
+        number = 1
+        while name.casefold() in names:
+            number += 1
+            name = f"{stem}_{number}"
+        names[name.casefold()] = name
+    return list(names.values())
 
 
 def add_caches(

@@ -10,9 +10,11 @@ import numpy as np
 from bpy.types import Image, Material, Node, NodeSocket, NodeTree, Object
 
 from ...core.arrays import BoolArray
+from ...core.errors import RetargetError
 from ...core.methods.settings import MapSettings
 from ...core.normal_maps.frame_maps import Tile
 from ...files.normal_map_files import first_number, map_name, udim_number
+from ..key_sets import LONGEST
 
 LABEL = "Facial Retarget Normal Map"
 """Nodes with this label are ours: made anew each time."""
@@ -29,6 +31,17 @@ class MapSequence(NamedTuple):
     tiles: tuple[Tile, ...]
     frames: range
     polygons: BoolArray | None = None
+
+
+def check_uv_name(thing: Object) -> None:
+    """RetargetError if no node can name the active UV map of an object: maps may have longer names than nodes."""
+    layer = thing.data.uv_layers.active
+    name = "" if layer is None else layer.name
+    if len(name.encode()) > LONGEST:
+        raise RetargetError(
+            f"UV map {name!r} of object {thing.name!r} has a name of {len(name.encode())} bytes, expected at most "
+            f"{LONGEST}: materials cannot name it"
+        )
 
 
 def wire(thing: Object, sequence: MapSequence) -> list[str]:

@@ -23,11 +23,11 @@ from ..background import Steps, in_thread, part
 from ..bakes.frames import write_frames
 from ..heads import head_parts, read_head
 from ..key_sets import check_targets
-from ..meshes import from_face_space, new_object, read_face
+from ..meshes import from_face_space, name_beside, new_object, read_face
 from ..performance import read_frames
 from ..settings import read_task_settings
 from ..task import frame_range, read_problem
-from .map_nodes import MapSequence, wire
+from .map_nodes import MapSequence, check_uv_name, wire
 from .map_output import map_folder, map_settings
 
 UV_NAME = "UVMap"
@@ -73,6 +73,8 @@ def normal_map_steps(context: Context) -> Steps[MadeMaps]:
     check_targets((task.source, *head_parts(task.source)), read_head(task.target).things)
     made = map_settings(wish)
     surface = None if made.level else textured(read_face(task.target), f"object {task.target.name!r}")
+    if surface is not None and wish.wire:
+        check_uv_name(task.target)
     frames = frame_range(context)
     source = yield from part(read_frames(context, task.source, frames), 0.0, READING)
 
@@ -90,7 +92,7 @@ def normal_map_steps(context: Context) -> Steps[MadeMaps]:
     appear_whole(computed.aside)
     thing = task.target
     if made.level:
-        name = f"{task.target.name} level {made.level}"
+        name = name_beside(task.target, f" level {made.level}")
         thing = level_object(name, task.target, computed.maps.surface)
         write_frames(thing, computed.light, frames.start)
     sequence = MapSequence(folder, made, tuple(computed.maps.maps), frames, _mapped(computed.maps))

@@ -31,11 +31,12 @@ from ..cloning.cloning import preparer
 from ..cloning.donors import donor_steps
 from ..heads import Head, own_to_head, read_head
 from ..key_sets import check_relative, check_targets, key_names, write_keys
-from ..meshes import from_face_space, read_positions, read_surface
+from ..meshes import from_face_space, name_beside, read_positions, read_surface
 from ..paths import chosen_path
 from ..raycast import available_caster
 from ..settings import read_task_settings
 from ..shape_keys import find_key, key_displacement
+from .map_nodes import check_uv_name
 from .map_output import wrinkle_settings
 from .normal_maps import level_object
 from .wrinkle_nodes import wire_kit
@@ -97,6 +98,8 @@ def wrinkle_kit_steps(context: Context) -> Steps[MadeKit]:
     check_kit_place(folder)
     if task.target is None:
         raise RetargetError("no target is chosen, expected a mesh object under Faces")
+    if wish.wire and not settings.level:
+        check_uv_name(task.target)
     head = read_head(task.target)
     lacking: list[str] = []
     if wish.detail == "OBJECT":
@@ -122,7 +125,8 @@ def wrinkle_kit_steps(context: Context) -> Steps[MadeKit]:
     appear_whole(computed.aside)
     thing = task.target
     if settings.level:
-        thing = level_object(f"{task.target.name} level {settings.level} wrinkles", task.target, computed.surface)
+        name = name_beside(task.target, f" level {settings.level} wrinkles")
+        thing = level_object(name, task.target, computed.surface)
         write_keys(thing, {name: from_face_space(task.target, move) for name, move in computed.moves.items()}, {})
     warnings = wire_kit(thing, folder, computed.files) if wish.wire else []
     pictures = 1 + computed.kit.difference_pictures + computed.kit.mask_pictures

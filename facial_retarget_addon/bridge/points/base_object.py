@@ -8,7 +8,7 @@ from bpy.types import Object
 
 from ...core.arrays import IntArray
 from ...core.errors import RetargetError
-from ..meshes import new_object, read_polygons, replace_geometry
+from ..meshes import name_beside, new_object, read_polygons, replace_geometry
 from ..scene.local_views import show_with
 from .points import point_positions, read_points
 
@@ -23,7 +23,7 @@ def show_base(thing: Object, names: tuple[str, ...], faces: IntArray) -> Object:
     rows = read_points(thing).index(names)
     vertices = point_positions(thing)[rows]
     counts = np.full(len(faces), 3, np.int64)
-    label = f"{thing.name} base"
+    label = name_beside(thing, " base")
     made = bpy.data.objects.get(label)
     if made is None or made.type != "MESH":
         made = new_object(label, vertices, counts, faces.ravel())

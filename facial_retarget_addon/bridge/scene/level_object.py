@@ -9,7 +9,7 @@ from bpy.types import Object
 from mathutils import Matrix
 
 from ...core.level_retargeter import LevelMotion
-from ..meshes import from_face_space, new_object, read_polygons, read_positions
+from ..meshes import from_face_space, name_beside, new_object, read_polygons, read_positions
 from ..shape_keys import ensure_key, write_key
 
 BESIDE = 1.2
@@ -27,7 +27,7 @@ def show_levels(thing: Object, levels: Sequence[LevelMotion]) -> Object:
     ----------
     levels : displacements (1, V, 3) in face space, the object's own vertices first.
     """
-    label = f"{thing.name} levels"
+    label = name_beside(thing, " levels")
     step = Matrix.Translation((BESIDE * thing.dimensions.x, 0, 0))
     place = step @ thing.matrix_world
     before = bpy.data.objects.get(label)

@@ -179,6 +179,9 @@ SENTENCES = {
     "the pattern of names {} has a line break, expected a single line": (
         "das Muster der Namen {} hat einen Zeilenumbruch; es ist eine einzige Zeile"
     ),
+    "UV map {} of object {} has a name of {} bytes, expected at most {}: materials cannot name it": (
+        "UV-Map {} von Objekt {} hat einen Namen von {} Bytes; höchstens {} gehen: Materialien können sie nicht nennen"
+    ),
     "object {} has a shape key {} of its own, which the bake would replace; expected another name": (
         "Objekt {} hat einen eigenen Formschlüssel {}, den das Backen ersetzen würde; anders nennen"
     ),
