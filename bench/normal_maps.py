@@ -10,7 +10,7 @@ import numpy as np
 
 from facial_retarget_addon import demo
 from facial_retarget_addon.bridge.meshes import new_object
-from facial_retarget_addon.core.arrays import FloatArray
+from facial_retarget_addon.core.arrays import FloatArray, IntArray
 from facial_retarget_addon.core.level_retargeter import LevelRetargeter
 from facial_retarget_addon.core.methods.base import fit
 from facial_retarget_addon.core.methods.settings import HierarchicalSettings, MapSettings
@@ -54,7 +54,7 @@ def rows() -> Iterator[Row]:
         yield Row(f"{size} x {size}, faster by", seconds["cycles"] / seconds["ours"], "x", bound, at_least=True)
         if size == 1024:
             for number, frame in enumerate(subject.fine):
-                off = cycles.angles(number, held.vectors(frame[: cycles.count], frame))
+                off = cycles.angles(number, held.vectors(frame[: cycles.count], frame).reshape(-1, 3), held.pixel)
                 yield Row(f"degrees from Cycles, frame {number}: median", float(np.median(off)), "", 1.0)
                 yield Row(f"degrees from Cycles, frame {number}: 95 %", float(np.quantile(off, 0.95)), "", 4.0)
 
@@ -112,14 +112,14 @@ class Cycles:
             margin=0,
         )
 
-    def angles(self, number: int, vectors: FloatArray) -> FloatArray:
-        """(P,) degrees between normals (H, W, 3) and those that Cycles bakes, where it does."""
+    def angles(self, number: int, vectors: FloatArray, covered: IntArray) -> FloatArray:
+        """(P,) degrees between pixels (H * W, 3) and those that Cycles bakes, at covered ones where it does."""
         self.bake(number)
-        flat = np.empty(4 * vectors.shape[0] * vectors.shape[1], np.float32)
+        flat = np.empty(4 * len(vectors), np.float32)
         self._image.pixels.foreach_get(flat)
-        theirs = 2 * flat.reshape(-1, 4)[:, :3] - 1
+        theirs = 2 * flat.reshape(-1, 4)[covered, :3] - 1
         lengths = np.linalg.norm(theirs, axis=1)
         baked = np.abs(lengths - 1) < 0.05
-        agree = np.einsum("pi,pi->p", theirs[baked], vectors.reshape(-1, 3)[baked]) / lengths[baked]
+        agree = np.einsum("pi,pi->p", theirs[baked], vectors[covered][baked]) / lengths[baked]
         off: FloatArray = np.degrees(np.arccos(np.clip(agree, -1, 1)))
         return off

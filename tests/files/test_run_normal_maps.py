@@ -37,6 +37,28 @@ def test_a_job_writes_a_map_of_each_frame_and_replaces_them(job):
     assert changes[2].max() > changes[1].max() > 0
 
 
+def test_udim_tiles_have_pictures_of_their_own_and_what_lies_outside_of_them_none(job):
+    face = read_mesh(job.target.neutral)
+    middle = np.add.reduceat(face.uvs[:, 0], np.cumsum(face.counts) - face.counts) / face.counts
+    low, high = np.quantile(middle, [0.2, 0.6])
+    step = np.repeat(np.select([middle < low, middle > high], [-1.0, 1.0], 0.0), face.counts)
+    write_mesh(replace(face, uvs=face.uvs + np.stack([step, 0 * step], axis=1)), job.target.neutral)
+    job = with_maps(job, pixels=64)
+    assert main(["run", str(job.path), "--quiet"]) == 0
+    names = [f"normal.{udim}.000{frame}.png" for udim in (1001, 1002) for frame in (1, 2, 3)]
+    assert sorted(file.name for file in job.normal_maps.folder.iterdir()) == names
+
+
+def test_texture_coordinates_in_no_tile_are_refused(job, listing, capsys):
+    face = read_mesh(job.target.neutral)
+    write_mesh(replace(face, uvs=face.uvs - [2.0, 0.0]), job.target.neutral)
+    job = with_maps(job, pixels=64)
+    before = listing()
+    assert main(["run", str(job.path), "--quiet"]) == 2
+    assert "lie in no UDIM tile" in capsys.readouterr().err
+    assert listing() == before
+
+
 def test_a_level_has_maps_without_any_texture_coordinates(job):
     face = read_mesh(job.target.neutral)
     write_mesh(replace(face, uvs=None), job.target.neutral)

@@ -12,13 +12,16 @@ WIDTH = 32
 
 
 def strip(tiles: int = 1, name: str = "strip") -> bpy.types.Object:
-    """A flat strip of squares side by side, one for each UDIM tile, that fills its tiles to the borders."""
+    """A flat strip of squares, one for each UDIM tile, up to its borders; its second UV map is active."""
     vertices = np.array([[x, y, 0.0] for x in range(tiles + 1) for y in (0, 1)])
     first = 2 * np.arange(tiles)
     corners = (first[:, None] + [0, 2, 3, 1]).ravel()
     made = part("bridge.meshes").new_object(name, vertices, np.full(tiles, 4), corners)
     uvs = vertices[corners, :2].copy()
+    made.data.uv_layers.new(name="rendered")
+    made.data.uv_layers["rendered"].active_render = True
     made.data.uv_layers.new(name='Gesicht "ä"').uv.foreach_set("vector", uvs.astype(np.float32).ravel())
+    made.data.uv_layers.active = made.data.uv_layers['Gesicht "ä"']
     made.data.shade_smooth()
     return made
 
