@@ -1,11 +1,11 @@
-"""Wired normal maps, seen through renders: the right picture at each frame and in each UDIM tile."""
+"""Wired normal maps, seen through renders: the right picture at each frame and in each UDIM tile, no seam."""
 
 import sys
 from pathlib import Path
 
 import bpy
 import numpy as np
-from stage import empty_scene, enable, part
+from stage import empty_scene, enable, grid, part
 
 FOLDER = Path(sys.argv[-1])
 WIDTH = 32
@@ -199,6 +199,70 @@ def a_librarys_material_is_left_as_it_is() -> None:
     assert not [node for node in thing.data.materials[0].node_tree.nodes if node.type == "TEX_IMAGE"]
 
 
+def bowl(name: str, side: int, height: float) -> bpy.types.Object:
+    """A bowl with waves of a height, in front of the camera of `stage`."""
+    made = grid(name, side)
+    places = part("bridge.meshes").read_positions(made.data).copy()
+    places[:, 2] += height * np.sin(9 * places[:, 0] + 4 * places[:, 1]) * np.cos(7 * places[:, 1] - 2 * places[:, 0])
+    made.data.vertices.foreach_set("co", places.ravel())
+    made.data.update()
+    made.data.shade_smooth()
+    made.scale, made.location = (0.5, 0.5, 0.5), (0.5, 0.5, -1)
+    return made
+
+
+def cut_in_four(thing: bpy.types.Object) -> None:
+    """Give a bowl UVs in four islands: as it is, turned by 90 degrees, mirrored, aslant and smaller."""
+    _, corners = part("bridge.meshes").read_polygons(thing.data)
+    places = part("bridge.meshes").read_positions(thing.data)[corners, :2].reshape(-1, 4, 2).astype(float)
+    quarter = (places.mean(axis=1) > 0) @ [1, 2]
+    slant = 0.7 * np.array([[0.8, -0.6], [0.6, 0.8]])
+    ways = np.eye(2), np.array([[0, -1], [1, 0]]), np.diag([-1, 1]), slant
+    for number, (way, x, y) in enumerate(zip(ways, (0.27, 0.73, 0.27, 0.73), (0.27, 0.27, 0.73, 0.73), strict=True)):
+        mine = quarter == number
+        centre = places[mine].reshape(-1, 2).mean(axis=0)
+        places[mine] = (places[mine] - centre) @ way.T * 0.37 + [x, y]
+    thing.data.uv_layers.new(name="UVMap").uv.foreach_set("vector", places.astype(np.float32).ravel())
+
+
+def no_seam_shows_in_a_render() -> None:
+    """Where islands meet the light mesh is as near to the fine one as elsewhere; without a margin it is not."""
+    empty_scene()
+    stage()
+    bpy.context.scene.render.resolution_x = bpy.context.scene.render.resolution_y = 4 * WIDTH
+    light, fine = bowl("light", 17, 0.0), bowl("fine", 161, 0.02)
+    cut_in_four(light)
+    meshes, nodes = part("bridge.meshes"), part("bridge.maps.map_nodes")
+    surface = part("files.normal_map_files").textured(meshes.read_face(light), "light")
+    material = bpy.data.materials.new("fine")
+    tree = nodes.node_tree(material)
+    shader = next(node for node in tree.nodes if node.type == "BSDF_PRINCIPLED")
+    tree.links.new(tree.nodes.new("ShaderNodeNewGeometry").outputs["Normal"], shader.inputs["Normal"])
+    fine.data.materials.append(material)
+    light.hide_render = True
+    truth = seen(material)
+    light.hide_render, fine.hide_render = False, True
+    across = np.abs(np.arange(4 * WIDTH) - 2 * WIDTH + 0.5) < 2
+    band = across[:, None] | across
+    off = {}
+    for margin in (0, 8):
+        made = part("core.normal_maps.normal_map").fit_normal_map(
+            surface, meshes.neutral_mesh(fine), 256, margin_width=margin
+        )
+        vectors = made.vectors(surface.mesh.vertices, meshes.neutral_mesh(fine).vertices)
+        maps = sequence(range(20 + margin, 21 + margin))
+        path = maps.folder / part("files.normal_map_files").map_name("png16", maps.frames.start)
+        part("files.images").write_image(part("core.normal_maps.encoding").as_picture(vectors), path, "png16")
+        nodes.wire(light, maps)
+        pixels = seen(light.data.materials[0])
+        angle = np.degrees(np.arccos(np.clip((pixels * truth).sum(axis=2), -1, 1)))[4:-4, 4:-4]
+        off[margin] = [np.quantile(angle[some], 0.95) for some in (band[4:-4, 4:-4], ~band[4:-4, 4:-4])]
+        print(f"margin {margin}: 95 % within {off[margin]} degrees of the fine mesh at seams and elsewhere")
+    assert off[8][0] < 1.2 * off[8][1]
+    assert off[0][0] > 2 * off[0][1]
+
+
+no_seam_shows_in_a_render()
 materials_of_others_stay_or_are_named()
 a_librarys_material_is_left_as_it_is()
 each_frame_has_its_picture()
