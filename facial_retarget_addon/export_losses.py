@@ -29,8 +29,8 @@ class Loss(NamedTuple):
         return self.text.format(**self.fields)
 
 
-UNSAMPLED = Loss("Keyframes lie between frames at many places: the whole frames are exported")
-"""Where no number of samples meets all keyframes."""
+UNSAMPLED = Loss("Keyframes that lie between the samples are left out")
+"""Where the samples of a frame do not meet all keyframes."""
 
 
 def export_losses(form: str, face: Object, scene: Scene, points: bool = False) -> list[Loss]:

@@ -51,7 +51,7 @@ def make_plain(
 ) -> None:
     """Give copies of a head what every exporter takes: keys relative to the Basis, each with a curve, in one action.
 
-    Masks of keys go into their shapes; drivers and NLA strips into their curves. Of the modifiers armatures stay.
+    Masks of keys go into their shapes; drivers and NLA strips into their curves. Armature modifiers stay that are on.
 
     Parameters
     ----------
@@ -60,8 +60,9 @@ def make_plain(
     """
     action, frames = None, np.array(times, float)
     for thing, copy in zip(things, copies, strict=True):
-        for modifier in [modifier for modifier in copy.modifiers if modifier.type != "ARMATURE"]:
-            copy.modifiers.remove(modifier)
+        for modifier in list(copy.modifiers):
+            if modifier.type != "ARMATURE" or not modifier.show_viewport:
+                copy.modifiers.remove(modifier)
         if thing.data.shape_keys is None:
             continue
         own, basis = key_names(thing), read_positions(thing.data)

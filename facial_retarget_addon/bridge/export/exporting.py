@@ -18,7 +18,7 @@ from ..bakes.times import FrameTimes
 from ..exporter_files import check_room
 from ..heads import head_parts
 from ..key_sets import LONGEST, shortened
-from ..performance import check_visible, frame_kept, is_shown
+from ..performance import check_visible, frame_kept
 from ..scene.local_views import show_with
 from ..scene.selection import select_only, selected_alone
 from .copies import copy_head, make_plain, names_lent, remove_copies
@@ -79,25 +79,24 @@ def export_steps(context: Context, face: Object, wish: ExportWish, tell: Callabl
     check_suffix(wish.form, wish.path)
     check_place(wish.path)
     things, scene = (face, *head_parts(face)), context.scene
-    check_visible(things, context.view_layer)
+    keyed, values = wish.form != "ALEMBIC" and not wish.points, {}
+    check_visible((*things, *(_armatures(things) if keyed else ())), context.view_layer)
     first, last = scene.frame_start, scene.frame_end
-    samples = wish.samples or samples_per_frame(things)
+    needed = samples_per_frame(things)
+    samples = wish.samples or needed or 1
     _check_cache_rate(things, wish, samples)
     lost = export_losses(wish.form, face, scene, wish.points)
-    if not samples:
-        samples = 1
-        lost.append(UNSAMPLED)
+    lost += [UNSAMPLED] if not needed or samples % needed else []
     for loss in lost:
         tell(loss)
     if wish.lossless and lost:
         raise RetargetError(f"{FORMATS[wish.form]} would lose something of {face.name!r}, and nothing was written")
-    keyed, values = wish.form != "ALEMBIC" and not wish.points, {}
     times = FrameTimes(first, last, 1 / samples)
     if keyed:
         values = yield from part(read_key_values(context, things, times), 0.0, 0.7)
     yield 0.7, f"Writing {wish.path.name}"
     with _copied(scene, things, times, values if keyed else None, _names(wish.form, things)) as copies:
-        _write(context, copies, wish, samples)
+        _write(context, copies, _armatures(copies) if keyed else [], wish, samples)
     return Exported(wish.path, first, last, samples)
 
 
@@ -170,16 +169,21 @@ def _copied(
         remove_copies(copies)
 
 
-def _write(context: Context, copies: Sequence[Object], wish: ExportWish, samples: int) -> None:
-    modifiers = [modifier for copy in copies for modifier in copy.modifiers if modifier.type == "ARMATURE"]
-    armatures = {modifier.object for modifier in modifiers if modifier.object is not None}
-    shown = [armature for armature in armatures if is_shown(armature, context.view_layer)]
+def _write(
+    context: Context, copies: Sequence[Object], armatures: Sequence[Object], wish: ExportWish, samples: int
+) -> None:
+    chosen = [*copies, *armatures]
     stretched = samples if wish.form in ("GLTF", "USD") else 1
     with (
         written_whole() as aside,
         _frames_of(context.scene, stretched, wish.form),
-        selected_alone(context, [*copies, *shown]),
+        selected_alone(context, chosen),
     ):
+        for thing in chosen:
+            if not thing.select_get():
+                raise RetargetError(
+                    f"object {thing.name!r} cannot be selected, expected that it can: exporters ask for it"
+                )
         first, last = context.scene.frame_start, context.scene.frame_end
         place = aside.place(wish.path)
         points = (last - first) * samples + 1 if wish.form == "ALEMBIC" or wish.points else 0
@@ -191,6 +195,12 @@ def _shapes(thing: Object) -> int:
     """How many shapes an object has, its neutral among them."""
     keys = getattr(thing.data, "shape_keys", None)
     return 1 if keys is None else len(keys.key_blocks)
+
+
+def _armatures(things: Sequence[Object]) -> list[Object]:
+    """The armatures that move some objects in the viewport, each once."""
+    modifiers = [modifier for thing in things for modifier in thing.modifiers if modifier.type == "ARMATURE"]
+    return list(dict.fromkeys(one.object for one in modifiers if one.show_viewport and one.object is not None))
 
 
 def _frame_size(context: Context, thing: Object) -> int:

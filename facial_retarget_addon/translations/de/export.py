@@ -121,6 +121,9 @@ SENTENCES = {
         "{} würde etwas von {} verlieren: nichts wurde geschrieben"
     ),
     "Writing {}": "Schreibt {}",
+    "object {} cannot be selected, expected that it can: exporters ask for it": (
+        "Objekt {} lässt sich nicht auswählen; Exporter brauchen das"
+    ),
     "modifier {} of object {} plays a cache by the scene's rate, expected 1 sample per frame for USD, not {}": (
         "Modifikator {} von Objekt {} spielt einen Zwischenspeicher nach der Rate der Szene, erwartet wird 1 "
         "Abtastung je Bild für USD, nicht {}"

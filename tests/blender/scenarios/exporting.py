@@ -320,6 +320,14 @@ def armatures_go_along_and_other_modifiers_stay_behind() -> None:
     finer = played([face])[face.name]
     lost = [str(loss) for loss in part("export_losses").export_losses("FBX", face, bpy.context.scene)]
     assert "He ad.L goes without what its modifiers do (Finer)" in lost[0], lost
+    rig.hide_select = True
+    with refused("'rig' cannot be selected"):
+        bpy.ops.facial_retarget.export_fbx(filepath=str(FOLDER / "rigged.fbx"))
+    rig.hide_select = False
+    rig.hide_set(True)
+    with refused("'rig' is hidden"):
+        bpy.ops.facial_retarget.export_fbx(filepath=str(FOLDER / "rigged.fbx"))
+    rig.hide_set(False)
     for form, suffix in FORMATS.items():
         export(form, FOLDER / f"rigged.{suffix}")
     export("usd", FOLDER / "rigged_points.usdc", points=True)
