@@ -188,7 +188,7 @@ def _write(
         place = aside.place(wish.path)
         points = (last - first) * samples + 1 if wish.form == "ALEMBIC" or wish.points else 0
         check_room(place, sum(_frame_size(context, copy) * (points or _shapes(copy)) for copy in copies))
-        write_selected(wish.form, place, first, last, samples, wish.points)
+        write_selected(wish.form, place, wish.path, first, last, samples, wish.points)
 
 
 def _shapes(thing: Object) -> int:

@@ -23,11 +23,12 @@ def check_suffix(form: str, path: Path) -> None:
         )
 
 
-def write_selected(form: str, path: Path, first: int, last: int, samples: int, points: bool) -> None:
+def write_selected(form: str, place: Path, path: Path, first: int, last: int, samples: int, points: bool) -> None:
     """Let Blender's exporter write what is selected, over the scene's range.
 
     Parameters
     ----------
+    place, path : where it is written, and where it will be in the end, for messages.
     first, last : scene frames. samples : of a frame; glTF and USD know whole frames of the scene only.
     points : USD with moving vertices instead of shape keys.
 
@@ -36,15 +37,15 @@ def write_selected(form: str, path: Path, first: int, last: int, samples: int, p
     RetargetError : if the exporter fails; says what it said.
     """
     try:
-        done = _call(form, str(path), first, last, samples, points)
+        done = _call(form, str(place), first, last, samples, points)
     except RuntimeError as error:
         said = _said(error)
         raise RetargetError(
             f"{path} cannot be written: Blender's {FORMATS[form]} exporter has failed: {said}"
         ) from error
-    if done != {"FINISHED"} or not path.is_file():
+    if done != {"FINISHED"} or not place.is_file():
         raise RetargetError(f"{path} cannot be written: Blender's {FORMATS[form]} exporter has written nothing")
-    if form in ("USD", "ALEMBIC") and not is_complete(path):
+    if form in ("USD", "ALEMBIC") and not is_complete(place):
         raise RetargetError(
             f"{path} cannot be written: Blender's {FORMATS[form]} exporter did not get to its end; the disk may be full"
         )

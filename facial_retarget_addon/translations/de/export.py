@@ -59,9 +59,7 @@ TEXTS = {
         "Nur die Bilder {first} bis {last} der Szene werden exportiert: die Schlüsselbilder reichen von {start:g} bis "
         "{end:g}"
     ),
-    "Keyframes lie between frames at many places: the whole frames are exported": (
-        "Schlüsselbilder liegen an vielen Stellen zwischen den Bildern: exportiert werden die ganzen Bilder"
-    ),
+    "Keyframes that lie between the samples are left out": "Schlüsselbilder zwischen den Abtastungen fallen weg",
     "Shape keys become moving vertices, without sliders: {names}": (
         "Formschlüssel werden zu bewegten Eckpunkten, ohne Regler: {names}"
     ),

@@ -420,7 +420,13 @@ def what_is_lost_is_said_before_anything_is_written() -> None:
     assert said == "Only the scene's frames 5 to 7 are exported: the keyframes reach from 5 to 9", said
     scene.frame_end = LAST
 
-    told: list[str] = []
+    told: list[object] = []
+    for samples, missed in ((0, False), (1, True), (2, False), (3, True), (4, False)):
+        told.clear()
+        wish = exporting.ExportWish("FBX", FOLDER / "samples.fbx", samples)
+        part("bridge.background").finished(exporting.export_steps(bpy.context, face, wish, told.append))
+        assert (losses.UNSAMPLED in told) == missed, (samples, told)
+    told.clear()
     path = FOLDER / "told.fbx"
     path.write_text("an earlier file")
 
@@ -432,7 +438,7 @@ def what_is_lost_is_said_before_anything_is_written() -> None:
     kept = part("bridge.export.formats")._call
     part("bridge.export.formats")._call = failing
     before, files = everything(), set(FOLDER.iterdir())
-    with refused("Blender's FBX exporter has failed: out of paint"):
+    with refused(f"{path} cannot be written: Blender's FBX exporter has failed: out of paint"):
         part("bridge.background").finished(
             exporting.export_steps(bpy.context, face, exporting.ExportWish("FBX", path), told.append)
         )
