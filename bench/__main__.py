@@ -19,6 +19,7 @@ SECTIONS = (
     "parts",
     "placing",
     "normal_maps",
+    "wrinkle_kit",
     "bakes",
     "blender_write",
     "bake_kinds",
