@@ -42,6 +42,8 @@ from .normal_maps import level_object
 from .wrinkle_nodes import wire_kit
 
 READING = 0.05
+PROMISED = 16
+"""Pictures that OpenGL promises a material on every graphics card; most take more."""
 
 
 class MadeKit(NamedTuple):
@@ -129,8 +131,8 @@ def wrinkle_kit_steps(context: Context) -> Steps[MadeKit]:
         thing = level_object(name, task.target, computed.surface)
         write_keys(thing, {name: from_face_space(task.target, move) for name, move in computed.moves.items()}, {})
     warnings = wire_kit(thing, folder, computed.files) if wish.wire else []
-    pictures = 1 + computed.kit.difference_pictures + computed.kit.mask_pictures
-    return MadeKit(folder, thing, len(computed.kit.keys), pictures, [*_said(computed.kit, lacking), *warnings])
+    kit = computed.kit
+    return MadeKit(folder, thing, len(kit.keys), kit.pictures, [*_said(kit, lacking), *warnings])
 
 
 def _said(kit: WrinkleKit, lacking: Sequence[str]) -> list[str]:
@@ -140,6 +142,11 @@ def _said(kit: WrinkleKit, lacking: Sequence[str]) -> list[str]:
         said.append(f"shapes without a key of their name on the target: {_some(lacking)}")
     if kit.dropped:
         said.append(f"keys that wrinkle too little for a map: {_some(list(kit.dropped))}")
+    if kit.pictures > PROMISED:
+        said.append(
+            f"the kit has {kit.pictures} pictures, and some graphics cards take {PROMISED} in an EEVEE material; raise "
+            "Least if it stays grey there"
+        )
     return said
 
 

@@ -117,6 +117,11 @@ class WrinkleKit:
         return -(-len(self.keys) // MASKS)
 
     @property
+    def pictures(self) -> int:
+        """All pictures of a tile, the neutral's among them."""
+        return 1 + self.difference_pictures + self.mask_pictures
+
+    @property
     def tiles(self) -> tuple[Tile, ...]:
         """The UDIM tiles that have pictures."""
         return tuple(self._maps)
@@ -161,7 +166,7 @@ class WrinkleKit:
         return {
             "keys": [{"name": key.name, "turn": key.turn, "kept": key.kept} for key in self.keys],
             "dropped": self.dropped,
-            "pictures": 1 + self.difference_pictures + self.mask_pictures,
+            "pictures": self.pictures,
         }
 
     def _weight(self, layer: int, values: Mapping[str, float], tile: Tile) -> FloatArray:
