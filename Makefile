@@ -19,7 +19,7 @@ demo: .venv/ready
 	$(BIN)/facial-retarget demo $(DEMO)
 	$(BIN)/python docs/samples/05_demo_scene.py $(DEMO)
 	$(BIN)/python docs/samples/10_figure_11.py $(DEMO)
-	$(BIN)/python docs/samples/12_wrinkle_kit.py $(DEMO)
+	$(BIN)/python docs/samples/13_wrinkle_kit.py $(DEMO)
 
 test: .venv/ready
 	$(BIN)/python -m pytest --ignore=tests/gui

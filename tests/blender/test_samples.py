@@ -7,7 +7,7 @@ import pytest
 
 SCENARIOS = Path(__file__).parent / "scenarios"
 SAMPLES = Path(__file__).resolve().parents[2] / "docs" / "samples"
-BY_MAKE_DEMO = ("05_demo_scene", "10_figure_11", "12_wrinkle_kit")
+BY_MAKE_DEMO = ("05_demo_scene", "10_figure_11", "13_wrinkle_kit")
 
 
 @pytest.mark.parametrize("sample", sorted({path.stem for path in SAMPLES.glob("*.py")} - set(BY_MAKE_DEMO)))

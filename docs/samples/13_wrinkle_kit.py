@@ -1,6 +1,6 @@
 """A wrinkle kit on the built-in faces: sliders move the wrinkles of a light mesh.
 
-    python docs/samples/12_wrinkle_kit.py FOLDER
+    python docs/samples/13_wrinkle_kit.py FOLDER
 
 Makes the kit of seven ARKit shapes for level 2 of the ape, gives it to an object with these shapes as keys, and renders
 it at several values of the sliders: without the wrinkles, with the kit, and with a normal map made for that very
