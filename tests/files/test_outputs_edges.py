@@ -25,16 +25,27 @@ from facial_retarget_addon import demo, demonstration
 from facial_retarget_addon.cli import main
 from facial_retarget_addon.core import retarget as core_retarget
 from facial_retarget_addon.core.arrays import Progress
+from facial_retarget_addon.core.errors import RetargetError
 from facial_retarget_addon.core.methods.base import Retargeter
-from facial_retarget_addon.core.methods.settings import BakeSettings, HierarchicalSettings, MapSettings, Settings
+from facial_retarget_addon.core.methods.settings import (
+    BakeSettings,
+    HierarchicalSettings,
+    MapSettings,
+    Settings,
+    WrinkleSettings,
+)
+from facial_retarget_addon.core.mpeg4.arkit import ARKIT_NAMES
+from facial_retarget_addon.core.mpeg4.arkit_take import ArkitTake
 from facial_retarget_addon.core.mpeg4.conversions import stream_of_values
 from facial_retarget_addon.core.problem import Problem
 from facial_retarget_addon.core.shapes.shape_set import ShapeSet
 from facial_retarget_addon.files.bake_output import BakeOutput
+from facial_retarget_addon.files.clone_job import CloneJob, SourceFiles, TargetFiles, write_clone_job
 from facial_retarget_addon.files.frames import read_frames, write_frames
 from facial_retarget_addon.files.job import FaceFiles, Job, MapOutput, OutputFiles, write_job
 from facial_retarget_addon.files.mesh_file import MeshFile
 from facial_retarget_addon.files.meshes import read_mesh, write_mesh
+from facial_retarget_addon.files.motion.arkit_csv import read_arkit_csv, write_arkit_csv
 from facial_retarget_addon.files.motion.fap import read_fap, write_fap
 from facial_retarget_addon.files.points import write_points
 from facial_retarget_addon.files.shape_files import add_shapes, read_shapes
@@ -108,6 +119,10 @@ def kit() -> Iterator[Kit]:
     rig = ShapeSet.of_positions(target.mesh.vertices, {"bump": bump(target.mesh, 0.0, 0.1)})
     with written_whole() as aside:
         add_shapes(aside, rig, folder / "rig.npz", target)
+    source = dome(SIDES["source"])
+    folds = ShapeSet.of_positions(source.mesh.vertices, {"fold": bump(source.mesh, 0.0, 0.1)})
+    with written_whole() as aside:
+        add_shapes(aside, folds, folder / "folds.npz", source)
     actor = demo.actor(vertices=1500)
     neutral = MeshFile(actor.face.mesh, actor.counts, actor.corners, actor.uvs[actor.corners])
     write_mesh(neutral, folder / "actor.obj")
@@ -181,6 +196,17 @@ def _clone(suffix: str) -> Command:
     return command
 
 
+def _wrinkles(kit: Kit, out: Path, stem: str) -> list[object]:
+    faces = [FaceFiles(kit.folder / f"{name}.obj", kit.folder / f"{name}_points.json") for name in SIDES]
+    target = TargetFiles(faces[1], out / f"{stem}.npz", wrinkles=out / f"{stem}_kit")
+    settings, how = HierarchicalSettings(levels=1), WrinkleSettings(pixels=64, least=0.0)
+    source = SourceFiles(faces[0], kit.folder / "folds.npz")
+    path = kit.folder / "clone.toml"
+    job = CloneJob(source, (target,), method="hierarchical", settings=settings, path=path, wrinkle_kit=how)
+    write_clone_job(job, path)
+    return ["clone", path]
+
+
 def _morph(suffix: str) -> Command:
     def command(kit: Kit, out: Path, stem: str) -> list[object]:
         to = ["--to-face", kit.folder / "actor.obj", "--to-points", kit.folder / "actor.json"]
@@ -210,6 +236,7 @@ COMMANDS: dict[str, Command] = {
     "clone npz page": _clone(".npz"),
     "clone json": _clone(".json"),
     "clone folder": _clone(""),
+    "clone npz wrinkle kit": _wrinkles,
     "markers": lambda kit, out, stem: ["markers", kit.folder / "markers.csv", "--out", out / f"{stem}.json"],
     "morph obj": _morph(".obj"),
     "morph ply": _morph(".ply"),
@@ -550,6 +577,16 @@ def test_a_take_of_one_frame_and_one_that_does_not_move(values: np.ndarray, kit:
     assert abs(measured[:, 2] - values[:, 2]).max() <= 5
     if not values.any():
         assert not measured.any()
+
+
+def test_weights_of_a_single_frame_are_read_again_where_the_rate_is_told(tmp_path: Path) -> None:
+    weights = np.linspace(0, 1, len(ARKIT_NAMES))[None]
+    write_arkit_csv(ArkitTake("take", 30.0, weights, None, None), tmp_path / "take.csv")
+    found = read_arkit_csv(tmp_path / "take.csv", 30.0)
+    assert found.fps == 30
+    np.testing.assert_allclose(found.weights, weights, atol=1e-9)
+    with pytest.raises(RetargetError, match="has 1 frames"):
+        read_arkit_csv(tmp_path / "take.csv")
 
 
 def test_a_shape_that_moves_nothing_is_cloned_as_one(kit: Kit, tmp_path: Path) -> None:

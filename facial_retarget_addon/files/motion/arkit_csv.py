@@ -139,7 +139,7 @@ def _timing(table: CsvTable, rows: list[CsvRow], fps: float | None) -> tuple[flo
         return (*rows_timing(table, rows, fps), ())
     timecodes = tuple(cells[place].strip() for _, cells in rows)
     seconds, _ = timecode_seconds(table.path, timecodes)
-    return (*frames_of_times(table.path, seconds), timecodes)
+    return (*frames_of_times(table.path, seconds, fps), timecodes)
 
 
 def _filled(frames: IntArray, missing: IntArray, values: FloatArray) -> FloatArray:

@@ -35,7 +35,7 @@ def rows_timing(table: CsvTable, rows: list[CsvRow], fps: float | None) -> tuple
     stated = checked_rate(table.path, table.settings["fps"]) if "fps" in table.settings else None
     times = next((place for name, place in table.columns.items() if name in TIMES), None)
     if times is not None:
-        rate, frames = frames_of_times(table.path, _column(table, rows, times))
+        rate, frames = frames_of_times(table.path, _column(table, rows, times), stated or fps)
         if stated is not None and abs(rate - stated) > CONTRADICTION * stated:
             raise RetargetError(f"{table.path} says {stated:g} frames a second, but its times are those of {rate:g}")
         return stated or rate, frames

@@ -55,12 +55,13 @@ def measured_rate(path: Path, fps: float) -> float:
     return float(nearest) if abs(nearest - fps) <= STANDARD_TOLERANCE * fps else fps
 
 
-def frames_of_times(path: Path, times: FloatArray) -> tuple[float, IntArray]:
+def frames_of_times(path: Path, times: FloatArray, fps: float | None) -> tuple[float, IntArray]:
     """Rate and frame numbers of rows that have times and may leave frames out.
 
     Parameters
     ----------
     times : (N,) seconds, in the order of the rows.
+    fps : frames a second of a single row, if somebody tells them.
 
     Returns
     -------
@@ -68,8 +69,10 @@ def frames_of_times(path: Path, times: FloatArray) -> tuple[float, IntArray]:
 
     Raises
     ------
-    RetargetError : if there are fewer than two rows, or the times do not grow.
+    RetargetError : if there are fewer than two rows and nobody tells the rate, or the times do not grow.
     """
+    if len(times) == 1 and fps is not None:
+        return checked_rate(path, fps), np.zeros(1, np.int64)
     if len(times) < 2:
         raise RetargetError(f"{path} has {len(times)} frames, expected at least two: their times tell the rate")
     steps = np.diff(times)
