@@ -10,7 +10,7 @@ import numpy as np
 
 from ..arrays import FloatArray, IntArray
 
-BLOCK = 32
+BLOCK = 16
 """Frames that are looked at together."""
 
 
