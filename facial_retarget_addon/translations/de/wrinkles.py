@@ -42,8 +42,8 @@ SENTENCES = {
     "keys that wrinkle too little for a map: {}": "Schlüssel mit zu wenig Falten für eine Map: {:said}",
     "the kit has {} pictures, and some graphics cards take {} in an EEVEE material; raise Least if it stays grey "
     "there": (
-        "der Satz hat {} Bilddateien, und manche Grafikkarten nehmen {} in einem EEVEE-Material; „Mindestens“ erhöhen, "
-        "wenn es dort grau bleibt"
+        "der Satz hat {} Bilddateien, und manche Grafikkarten nehmen {} in einem EEVEE-Material; „Mindestens“ "
+        "erhöhen, wenn es dort grau bleibt"
     ),
     "material {} {}: the wrinkle kit is not wired there": (
         "Material {} {:said}: der Faltensatz ist dort nicht angeschlossen"
