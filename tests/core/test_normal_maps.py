@@ -256,6 +256,11 @@ def test_eyes_over_the_skin_in_the_texture_take_no_pixel_of_it(fitted: Fitted) -
     alone = FrameMaps(fit("hierarchical", bare, HierarchicalSettings(levels=3)), bare, skin_surface(child), settings)
     assert len(with_ball.frame(performance[0])[0]) == len(vertices)
     np.testing.assert_array_equal(with_ball.mapped.mesh.faces, alone.mapped.mesh.faces)
+    shown = with_ball.mapped.shown_polygons
+    assert shown is not None
+    assert not shown[len(child.counts) :].any()
+    assert shown.sum() == len(np.unique(alone.mapped.mesh.polygons))
+    assert with_ball.surface.shown_polygons is None
     one, two = (maps.frame(performance[9])[1][0, 0] for maps in (with_ball, alone))
     np.testing.assert_allclose(one, two, atol=1e-3)
 

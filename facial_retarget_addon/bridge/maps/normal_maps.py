@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 from bpy.types import Context, Object
 
-from ...core.arrays import BoolArray, FloatArray, Progress, progress_part
+from ...core.arrays import FloatArray, Progress, progress_part
 from ...core.errors import RetargetError
 from ...core.level_retargeter import LevelRetargeter
 from ...core.methods.settings import LEVELED
@@ -95,16 +95,9 @@ def normal_map_steps(context: Context) -> Steps[MadeMaps]:
         name = name_beside(task.target, f" level {made.level}")
         thing = level_object(name, task.target, computed.maps.surface)
         write_frames(thing, computed.light, frames.start)
-    sequence = MapSequence(folder, made, tuple(computed.maps.maps), frames, _mapped(computed.maps))
+    sequence = MapSequence(folder, made, tuple(computed.maps.maps), frames, computed.maps.mapped.shown_polygons)
     warnings = _shading_warnings(thing) + (wire(thing, sequence) if wish.wire else [])
     return MadeMaps(folder, thing, warnings)
-
-
-def _mapped(maps: FrameMaps) -> BoolArray:
-    """(P,) the polygons of the light mesh that the maps are for."""
-    mapped = np.zeros(len(maps.surface.counts), bool)
-    mapped[maps.mapped.mesh.polygons] = True
-    return mapped
 
 
 def _shading_warnings(thing: Object) -> list[str]:

@@ -59,7 +59,7 @@ class MadeKit(NamedTuple):
 class _Ready(NamedTuple):
     """A light mesh with its maps, and the poses of its keys.
 
-    surface : its neutral, in face space of the target.
+    surface : its neutral, in face space of the target; triangles only where the maps are.
     """
 
     surface: TexturedSurface
@@ -130,7 +130,7 @@ def wrinkle_kit_steps(context: Context) -> Steps[MadeKit]:
         name = name_beside(task.target, f" level {settings.level} wrinkles")
         thing = level_object(name, task.target, computed.surface)
         write_keys(thing, {name: from_face_space(task.target, move) for name, move in computed.moves.items()}, {})
-    warnings = wire_kit(thing, folder, computed.files) if wish.wire else []
+    warnings = wire_kit(thing, folder, computed.files, computed.surface.shown_polygons) if wish.wire else []
     kit = computed.kit
     return MadeKit(folder, thing, len(kit.keys), kit.pictures, [*_said(kit, lacking), *warnings])
 
@@ -186,7 +186,7 @@ def _retargeted(
         maps = FrameMaps(fitted, problem, surface, settings, progress_part(progress, 0.7, 1.0))
         rest = donor.face.mesh.vertices
         posed = retargeted_poses(maps, rest, prepared.shapes, names, prepared.correctives)
-        return _Ready(maps.surface, maps.maps, posed)
+        return _Ready(maps.mapped, maps.maps, posed)
 
     return make
 

@@ -10,6 +10,7 @@ from pathlib import Path
 import bpy
 from bpy.types import Image, Key, Node, NodeSocket, NodeTree, Object, ShaderNode, ShaderNodeTree
 
+from ...core.arrays import BoolArray
 from ...core.normal_maps.wrinkle_kit import LOWEST
 from ...files.normal_map_files import udim_number
 from ...files.wrinkle_kit_files import UDIM, KitFiles
@@ -23,8 +24,10 @@ ADDING = "Facial Retarget Wrinkle"
 STRENGTH = "Strength"
 
 
-def wire_kit(thing: Object, folder: Path, files: KitFiles) -> list[str]:
-    """Let an object's materials wrinkle by the values of its shape keys; it gets a material if it has none.
+def wire_kit(thing: Object, folder: Path, files: KitFiles, polygons: BoolArray | None = None) -> list[str]:
+    """Let an object's materials, or those of some polygons (P,), wrinkle by the values of its shape keys.
+
+    Where there is no material it gets one.
 
     An earlier kit and normal maps of ours go. A Principled shader whose normal comes from nodes of the artist's own
     keeps them, and bump nodes get the wrinkles beneath their bumps; a warning names the material of any other.
@@ -32,7 +35,7 @@ def wire_kit(thing: Object, folder: Path, files: KitFiles) -> list[str]:
     remove_kit(thing)
     group = _kit_group(thing, folder, files)
     warnings = []
-    for material in map_nodes.materials(thing):
+    for material in map_nodes.materials(thing, polygons):
         tree = map_nodes.node_tree(material)
         map_nodes.remove_maps(tree)
         shaders = [node for node in tree.nodes if node.type == "BSDF_PRINCIPLED"]

@@ -63,6 +63,13 @@ class TexturedSurface:
         mesh = TriMesh(self.mesh.vertices, self.mesh.faces[kept], self.mesh.polygons[kept])
         return TexturedSurface(mesh, self.counts, self.corners, self.uvs)
 
+    @property
+    def shown_polygons(self) -> BoolArray | None:
+        """(P,) the polygons that have triangles; None if all have."""
+        shown = np.zeros(len(self.counts), bool)
+        shown[self.mesh.polygons] = True
+        return None if shown.all() else shown
+
     @cached_property
     def triangle_corners(self) -> IntArray:
         """(F, 3) rows of `corners` that each triangle of the mesh was cut from."""
