@@ -142,7 +142,10 @@ class SeamGaps:
         return found
 
     def gaping(self, source: FloatArray, target: FloatArray) -> list[Gaping]:
-        """Where the target gapes in each of the frames (F, Vs, 3) and (F, Vt, 3), by the openings of `measured`."""
+        """Where the target gapes in each of the frames (F, Vs, 3) and (F, Vt, 3), by the openings of `measured`.
+
+        Where the eye that counts gapes, the other one is told of too.
+        """
         lips, lids = ([np.empty(0, np.int64)] * len(source) for _ in range(2))
         if self._lips[0] is not None and self._lips[1] is not None:
             more = self._lips[1].by_guide(target) - self._lips[0].by_guide(source)
@@ -150,7 +153,10 @@ class SeamGaps:
         if self._lids[0]:
             ours, theirs = self._eyes(source, target)
             more_shut, more = ours.sum(axis=2).argmin(axis=0), theirs - ours
-            lids = [_gaping_vertices(self._lids[1][eye], more[eye, frame]) for frame, eye in enumerate(more_shut)]
+            for frame, counted in enumerate(more_shut):
+                if more[counted, frame].sum() >= GAPES:
+                    both = [_gaping_vertices(eye, more[row, frame]) for row, eye in enumerate(self._lids[1])]
+                    lids[frame] = np.concatenate(both)
         return [Gaping(*both) for both in zip(lips, lids, strict=True)]
 
     def _eyes(self, source: FloatArray, target: FloatArray) -> tuple[FloatArray, FloatArray]:
