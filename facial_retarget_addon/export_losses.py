@@ -172,6 +172,12 @@ def _of_format(form: str, things: list[Object], scene: Scene, points: bool) -> I
                 "{wrong:.3f}",
                 {"rate": rate / base, "wrong": rate * base},
             )
+    quoted = [name for name in own_key_names(things) if '"' in name] if form == "FBX" else []
+    if quoted:
+        yield Loss(
+            "Blender's newer FBX importer leaves out curves of shape keys that have a \" in their names: {names}",
+            {"names": _listed(quoted)},
+        )
     layers = [layer.name for thing in things for layer in thing.data.uv_layers]
     if form == "GLTF" and any(name != "UVMap" for name in layers):
         yield Loss("The names of UV maps are lost")

@@ -88,6 +88,9 @@ TEXTS = {
     "glTF counts seconds, and Blender's importer takes this scene's {rate:.3f} frames a second for {wrong:.3f}": (
         "glTF zählt Sekunden, und Blenders Import hält die {rate:.3f} Bilder pro Sekunde dieser Szene für {wrong:.3f}"
     ),
+    "Blender's newer FBX importer leaves out curves of shape keys that have a \" in their names: {names}": (
+        'Blenders neuerer FBX-Import lässt Kurven von Formschlüsseln weg, die ein " im Namen haben: {names}'
+    ),
     "The names of UV maps are lost": "Die Namen der UV-Maps gehen verloren",
     "USD calls objects otherwise: {names}": "USD nennt Objekte anders: {names}",
     "USD calls shape keys otherwise: {names}": "USD nennt Formschlüssel anders: {names}",
