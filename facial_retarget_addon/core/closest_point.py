@@ -107,7 +107,13 @@ class SurfaceFinder:
         """
         points = np.ascontiguousarray(points, np.float64)
         search = _Search(self._mesh, self._corners, points, normals, agreement, limit)
-        rest = search.run(self._whole, np.arange(len(points)), _NEIGHBOURS if normals is not None else len(self._faces))
+        active, whole = np.arange(len(points)), self._whole
+        if np.isfinite(limit):
+            # Asked for several neighbours of a place far from all, the tree looks at most of them.
+            active = np.flatnonzero(
+                np.isfinite(whole.tree.query(points, distance_upper_bound=limit + whole.largest)[0])
+            )
+        rest = search.run(whole, active, _NEIGHBOURS if normals is not None else len(self._faces))
         if len(rest) and normals is not None:
             own = (normals[rest] > 0) @ _OCTANT
             for octant, pieces in self._octants.items():
