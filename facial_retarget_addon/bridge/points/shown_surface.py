@@ -23,11 +23,19 @@ from ...core.view_rays import View
 from ..meshes import neutral_mesh
 from ..raycast import available_caster
 from .point_places import shown_vertices
+from .topology import topology_of
 
 COVER, NEAR = 0.01, 0.05
 """Lashes and shells that a point of the skin is placed through: their area at most, of the skin's, and how far they lie
 before it at most, of the mesh's size. An eyeball has more area: whoever clicks there shall not hit its socket.
 """
+
+
+KEPT = 4
+"""Meshes whose pieces are kept: each press of the mouse would wait for them."""
+
+_components: dict[str, IntArray] = {}
+"""Topology of a mesh -> (V,) the component of each vertex; the one made last stands last."""
 
 
 class ShownSurface:
@@ -47,6 +55,7 @@ class ShownSurface:
                 "its mesh; turn the modifier off in the viewport while you place points"
             )
         self.mesh: TriMesh = neutral_mesh(thing).with_vertices(vertices)
+        self._topology = topology_of(thing.data)
 
     @cached_property
     def _caster(self) -> RayCaster:
@@ -55,7 +64,11 @@ class ShownSurface:
     @cached_property
     def _pieces(self) -> IntArray:
         """(F,) the component that each triangle belongs to."""
-        return self.mesh.components[self.mesh.faces[:, 0]]
+        if self._topology not in _components:
+            _components[self._topology] = self.mesh.components
+            while len(_components) > KEPT:
+                del _components[next(iter(_components))]
+        return _components[self._topology][self.mesh.faces[:, 0]]
 
     @cached_property
     def _areas(self) -> FloatArray:
