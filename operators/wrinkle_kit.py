@@ -49,7 +49,7 @@ class FACIAL_RETARGET_OT_make_wrinkle_kit(InSteps, Operator):
         for warning in result.warnings:
             self.report({"WARNING"}, told(warning))
         keys, pictures, name = result.keys, result.pictures, result.thing.name
-        self.report({"INFO"}, told(f"Wrinkles of {keys} keys of {name!r} in {pictures} pictures in {result.folder}"))
+        self.report({"INFO"}, told(f"Wrinkle kit of {name!r} in {result.folder} (keys: {keys}, pictures: {pictures})"))
 
 
 class FACIAL_RETARGET_OT_remove_wrinkle_kit(OnFace, Operator):
@@ -66,5 +66,5 @@ class FACIAL_RETARGET_OT_remove_wrinkle_kit(OnFace, Operator):
 
         count = remove_kit(context.active_object)
         name = context.active_object.name
-        self.report({"INFO"}, told(f"Wrinkle kit taken out of {count} materials of {name!r}"))
+        self.report({"INFO"}, told(f"Wrinkle kit taken out of {name!r} (materials: {count})"))
         return {"FINISHED"}

@@ -35,8 +35,8 @@ TEXTS = {
 }
 
 SENTENCES = {
-    "Wrinkles of {} keys of {} in {} pictures in {}": "Falten von {} Formschlüsseln von {} in {} Bilddateien in {}",
-    "Wrinkle kit taken out of {} materials of {}": "Faltensatz aus {} Materialien von {} genommen",
+    "Wrinkle kit of {} in {} (keys: {}, pictures: {})": "Faltensatz von {} in {} (Schlüssel: {}, Bilddateien: {})",
+    "Wrinkle kit taken out of {} (materials: {})": "Faltensatz aus {} genommen (Materialien: {})",
     "picture {} of {}": "Bilddatei {} von {}",
     "shapes without a key of their name on the target: {}": "Formen ohne gleichnamigen Schlüssel am Ziel: {:said}",
     "keys that wrinkle too little for a map: {}": "Schlüssel mit zu wenig Falten für eine Map: {:said}",
