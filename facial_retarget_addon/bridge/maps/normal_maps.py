@@ -111,12 +111,18 @@ def _shading_warnings(thing: Object) -> list[str]:
 
 
 def level_object(name: str, target: Object, surface: TexturedSurface) -> Object:
-    """A level of the target's normal mesh as an object where the target is; an earlier one of that name is replaced."""
-    before = bpy.data.objects.get(name)
+    """A level of the target's normal mesh as an object where the target is.
+
+    An earlier one of that name is replaced; its materials stay.
+    """
+    before, kept = bpy.data.objects.get(name), []
     if before is not None and before.type == "MESH":
+        kept = list(before.data.materials)
         bpy.data.meshes.remove(before.data)
     made = new_object(name, from_face_space(target, surface.mesh.vertices), surface.counts, surface.corners)
     made.data.shade_smooth()
     made.data.uv_layers.new(name=UV_NAME).uv.foreach_set("vector", np.ravel(surface.uvs).astype(np.float32))
     made.matrix_world = target.matrix_world
+    for material in kept:
+        made.data.materials.append(material)
     return made

@@ -121,6 +121,10 @@ def maps_of_a_level_are_cycles() -> None:
     task.normal_maps.light, task.normal_maps.level, task.normal_maps.pixels = "LEVEL", 2, SIZE
     task.normal_maps.folder, task.normal_maps.margin = str(FOLDER / "level"), 0
     assert bpy.ops.facial_retarget.make_normal_maps() == {"FINISHED"}
+    (material,) = bpy.data.objects["child level 2"].data.materials
+    assert bpy.ops.facial_retarget.make_normal_maps() == {"FINISHED"}
+    assert list(bpy.data.objects["child level 2"].data.materials) == [material]
+    assert list(bpy.data.materials) == [material]
     assert sorted(path.name for path in (FOLDER / "level").iterdir()) == [f"normal.000{n}.png" for n in (1, 2, 3)]
     level = bpy.data.objects["child level 2"]
     assert [key.name for key in level.data.shape_keys.key_blocks][1:] == ["frame_0001", "frame_0002", "frame_0003"]
