@@ -15,7 +15,7 @@ from ...core.errors import RetargetError
 from ..cloning.curve_copies import copy_curve
 from ..curves import ensure_bag, ensure_curves, find_bag, find_curves, remove_curves
 from ..key_sets import LONGEST, free_name, shortened
-from ..shape_keys import find_key, remove_keys, value_path
+from ..shape_keys import remove_keys, value_path
 from .frames import check_own_keys, remove_bakes, remove_cache_modifier
 from .names import MODIFIER, baked_keys, cache_modifier, moved_keys, record_bake
 
@@ -143,8 +143,9 @@ def _forget(things: Sequence[Object], number: int) -> None:
 
 
 def _check_there(thing: Object, item: PropertyGroup) -> None:
-    wanted = [*item.kept.split("\n"), *item.moved.split("\n")]
-    lost = [name for name in wanted if name and find_key(thing, name) is None]
+    keys = thing.data.shape_keys
+    there = set() if keys is None else set(keys.key_blocks.keys())
+    lost = [name for name in (*item.kept.split("\n"), *item.moved.split("\n")) if name and name not in there]
     if lost:
         raise RetargetError(f"shape key {lost[0]!r} of {item.name!r} is gone from object {thing.name!r}")
     if item.modifier and thing.modifiers.get(item.modifier) is None:
@@ -191,9 +192,9 @@ def _keep_keys(thing: Object, item: PropertyGroup, action: Action | str) -> Acti
         item.action, item.slot = action, slot.identifier
         _copy_curves(bag, ensure_bag(action, slot), paths)
         remove_curves(bag, set(paths))
+    there = {key.name: key for key in keys.key_blocks}
     for old, new in names.items():
-        key = keys.key_blocks[old]
-        key.name, key.mute = new, True
+        there[old].name, there[old].mute = new, True
     for name in moved:
         keys.key_blocks[name].value = 0.0
     if baked:
@@ -210,9 +211,9 @@ def _play_keys(thing: Object, item: PropertyGroup, shared: Action | None) -> Act
         return None
     moved = item.moved.split("\n") if item.moved else []
     paths = {value_path(name): value_path(name) for name in moved} | {EVALUATION: EVALUATION}
-    played = []
+    played, there = [], {key.name: key for key in keys.key_blocks}
     for old, new in zip(item.kept.split("\n"), item.keys.split("\n"), strict=True) if item.kept else ():
-        key = keys.key_blocks[old]
+        key = there[old]
         key.name, key.mute = new, False
         played.append(key.name)  # Blender numbers it where the artist has taken the name
         paths[value_path(old)] = value_path(key.name)

@@ -172,5 +172,25 @@ def what_the_artist_has_edited_comes_back() -> None:
         bpy.ops.facial_retarget.remove_bake(number=99)
 
 
+def one_undo_step_takes_each_back() -> None:
+    """Playing a kept bake and removing one."""
+    face = head()
+    bake(face, "frames", frames_of(face, 1))
+    bake(face, "alembic", frames_of(face, 2))
+    for press in (
+        lambda: bpy.ops.facial_retarget.play_bake(number=1),
+        lambda: bpy.ops.facial_retarget.remove_bake(),
+        lambda: bpy.ops.facial_retarget.remove_bake(number=1),
+    ):
+        bpy.ops.ed.undo_push(message="before")
+        before = everything()
+        press()
+        assert differences(before, everything())
+        bpy.ops.ed.undo_push(message="after")
+        bpy.ops.ed.undo()
+        assert not differences(before, everything()), differences(before, everything())
+
+
 every_kind_is_kept_and_plays_again()
+one_undo_step_takes_each_back()
 what_the_artist_has_edited_comes_back()
