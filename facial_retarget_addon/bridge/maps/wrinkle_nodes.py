@@ -141,16 +141,17 @@ class _Kit:
         channels = {name: self._channels(name) for name in dict.fromkeys(name for name, _ in weights)}
         for (name, pair), weight in weights.items():
             added = self._wrinkle(channels[name], pair, weight, added)
-        whole = self._vector("MULTIPLY_ADD", 2, added, given[STRENGTH], neutral)
-        whole = self._vector("ADD", 3, whole, (0.0, 0.0, 1.0))
+        # The neutral comes first: exporters take the first picture that they find for the normal map.
+        whole = self._vector("ADD", 3, neutral, self._vector("MULTIPLY", 2, added, given[STRENGTH]))
+        whole = self._vector("ADD", 4, whole, (0.0, 0.0, 1.0))
         if self._files.settings.convention == "directx":
-            whole = self._vector("MULTIPLY", 4, whole, (1.0, -1.0, 1.0))
-        whole = self._vector("NORMALIZE", 5, whole)
-        whole = self._vector("MULTIPLY_ADD", 6, whole, (0.5, 0.5, 0.5), (0.5, 0.5, 0.5))
-        normal = self._node("ShaderNodeNormalMap", 7)
+            whole = self._vector("MULTIPLY", 5, whole, (1.0, -1.0, 1.0))
+        whole = self._vector("NORMALIZE", 6, whole)
+        whole = self._vector("MULTIPLY_ADD", 7, whole, (0.5, 0.5, 0.5), (0.5, 0.5, 0.5))
+        normal = self._node("ShaderNodeNormalMap", 8)
         normal.uv_map = self._uv_name
         self._group.links.new(whole, normal.inputs["Color"])
-        self._group.links.new(normal.outputs["Normal"], self._node("NodeGroupOutput", 8).inputs[0])
+        self._group.links.new(normal.outputs["Normal"], self._node("NodeGroupOutput", 9).inputs[0])
 
     def _weights(self, given: Mapping[str, NodeSocket]) -> dict[tuple[str, str], NodeSocket]:
         """Picture and channels of each layer -> the sum of value times mask over its keys."""

@@ -173,6 +173,20 @@ def what_the_artist_has_wired_stays() -> None:
     assert (FOLDER / "png16_opengl" / "wrinkles.json").exists()
 
 
+def gltf_gets_the_neutrals_map() -> None:
+    """An exporter that knows no node groups takes the normal map that fits a still face."""
+    import addon_utils
+
+    sheets()
+    addon_utils.enable("io_scene_gltf2")
+    assert bpy.ops.facial_retarget.make_wrinkle_kit() == {"FINISHED"}
+    bpy.ops.export_scene.gltf(filepath=str(FOLDER / "skin.glb"))
+    data = (FOLDER / "skin.glb").read_bytes()
+    said = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")])
+    assert [image["name"] for image in said["images"]] == ["neutral"], said["images"]
+    assert [material["normalTexture"]["index"] for material in said["materials"]] == [0]
+
+
 def udim_tiles_have_pictures_of_their_own() -> None:
     """A sheet whose right half lies in tile 1002 shades there as in tile 1001."""
     skin = sheets()
@@ -286,6 +300,7 @@ def what_cannot_be_done_is_said() -> None:
 
 sliders_move_the_wrinkles()
 what_the_artist_has_wired_stays()
+gltf_gets_the_neutrals_map()
 udim_tiles_have_pictures_of_their_own()
 a_level_gets_keys_and_wrinkles_as_the_command_line_makes_them()
 what_cannot_be_done_is_said()
