@@ -180,7 +180,7 @@ def held(folder: Path) -> dict[str, bytes | None]:
 
 def every_output(disk: Path, own: bool) -> None:
     """First well, then where it cannot be: the sentence names the output."""
-    scarce = [limited, full, locked] if own else [limited, locked]
+    scarce = [full if own else limited, locked]
     failures = []
     for name, prepare in OUTPUTS.items():
         task, folder = pair(), disk / name.replace(" ", "_")
