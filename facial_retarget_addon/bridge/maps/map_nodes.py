@@ -136,7 +136,7 @@ def _normal(tree: NodeTree, sequence: MapSequence, uv_name: str, before: Node) -
     whole = _vector(tree, "FLOOR", (left - 1040, top), where).outputs[0] if several else None
     colour = None
     for row, tile in enumerate(sequence.tiles):
-        here = top - 320 * row
+        here = top - 500 * row
         picture = _picture(tree, sequence, tile, (left - 680, here))
         if whole is None:
             tree.links.new(where, picture.inputs["Vector"])
@@ -174,7 +174,7 @@ def _of_tile(
     tree: NodeTree, others: NodeSocket, own: NodeSocket, whole: NodeSocket, tile: Tile, place: tuple[float, float]
 ) -> NodeSocket:
     """The own colour in a tile, and that of the others elsewhere; `whole` has u and v rounded down."""
-    away = _vector(tree, "DISTANCE", (place[0] - 200, place[1] - 120), whole, (*tile, 0.0))
+    away = _vector(tree, "DISTANCE", (place[0] - 460, place[1] - 220), whole, (*tile, 0.0))
     mix = _new(tree, "ShaderNodeMix", place)
     mix.data_type = "RGBA"
     factor, first, second = (
