@@ -86,9 +86,11 @@ def bake_steps(head: Head, unit: float, frames: FloatArray, times: Sequence[floa
     yield 0.0, "Preparing the bake"
     if kind in CACHES:
         places = cache_places(head, free_file(head.things, wish.cache_path(), wish.keep), frames)
+        files = sorted({place.path for place in places.values()})
+        figures["files"] = [str(path) for path in files]
         return PreparedBake(
             figures,
-            [place.path for place in places.values()],
+            files,
             lambda aside: add_caches(aside, head, places, frames, times),
             lambda: _write(head, wish, lambda: play_caches(head, places, times)),
         )

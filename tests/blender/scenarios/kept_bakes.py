@@ -57,6 +57,7 @@ def bake(face: bpy.types.Object, kind: str, frames: np.ndarray, keep: bool = Tru
     wish = module.Wish(how, "frame_####", str(FOLDER / "cache.pc2"), keep)
     found = part("bridge.heads").read_head(face)
     prepared = part("bridge.background").finished(module.bake_steps(found, 1.0, frames, TIMES, wish))
+    assert prepared.figures.get("files", []) == [str(path) for path in prepared.files]
     with part("bridge.bakes.scene_cache").let_go(prepared.files), part("files.whole").written_whole() as aside:
         prepared.add_files(aside)
     prepared.write()
