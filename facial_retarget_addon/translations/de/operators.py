@@ -294,11 +294,11 @@ TEXTS = {
     ),
     "The target follows the source": "Das Ziel folgt der Quelle",
     "Click a method to see the target follow by it": "Auf eine Methode klicken, um das Ziel ihr folgen zu sehen",
-    "Lips": "Lippen",
+    "Lips": "Lippe",
     "Edges of the lips, where they are open wider than the source's": (
         "Ränder der Lippen, wo sie weiter offen sind als die der Quelle"
     ),
-    "Lids": "Lider",
+    "Lids": "Lid",
     "Edges of the lids, where they are open wider than the source's": (
         "Ränder der Lider, wo sie weiter offen sind als die der Quelle"
     ),
