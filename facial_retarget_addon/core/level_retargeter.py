@@ -18,6 +18,7 @@ from .methods.settings import LevelSettings
 from .pair import Pair
 from .parts.carried_parts import CarriedParts
 from .parts.report import still_components
+from .seams.lids import LidSeams
 from .steering.learned import Example, Steering, learn
 
 
@@ -42,6 +43,8 @@ class LevelRetargeter:
     strengths : the settings'.
     make_fine_motion : gives the motion of the target's finest level for strengths of its levels.
     parts : what follows the skin, and the eyeballs; None for nothing.
+    lids : close the motion's lids as far as the source's; None to leave them as they are carried. Their correction
+        counts as motion of the base.
     """
 
     def __init__(
@@ -51,10 +54,12 @@ class LevelRetargeter:
         strengths: Strengths,
         make_fine_motion: Callable[[Strengths], Motion],
         parts: CarriedParts | None = None,
+        lids: LidSeams | None = None,
     ) -> None:
         self._pair, self._make_motion, self._strengths = pair, make_motion, strengths
-        self._make_fine_motion, self._parts = make_fine_motion, parts
-        self.plain = make_motion(strengths)
+        self._make_fine_motion, self._parts, self._lids = make_fine_motion, parts, lids
+        self._carried = make_motion(strengths)
+        self._whole = self._carried if strengths.plain else make_motion(strengths.whole)
         self._steering: Steering | None = None
         self._examples: list[Example] = []
         self._measured: list[Example] = []
@@ -78,9 +83,14 @@ class LevelRetargeter:
             again.__dict__.pop(made, None)
         again._strengths = Strengths(gains, settings.detail_scale)
         if again._strengths != self._strengths:
-            again.plain = self._make_motion(again._strengths)
+            again._carried = self._whole if again._strengths.plain else self._make_motion(again._strengths)
         again.learn(self._examples, settings.example_strength)
         return again
+
+    def plain(self, frames: FloatArray) -> FloatArray:
+        """Displacements (F, Vt, 3) of frames (F, Vs, 3) float32, without examples and parts."""
+        whole = None if self._carried is self._whole else self._whole(frames)
+        return self._shut(self._carried(frames), frames, whole)
 
     def prepare_levels(self) -> None:
         """Make now what other strengths will need, so that they act at once."""
@@ -112,6 +122,7 @@ class LevelRetargeter:
             **report,
             "parts": rows,
             "still_components": still,
+            "lids": [] if self._lids is None else list(self._lids.sides),
             "examples": self._figures,
             "warnings": report["warnings"] + named,
         }
@@ -132,9 +143,9 @@ class LevelRetargeter:
         """The finest mesh of source frames (F, Vs, 3): positions (F, N, 3) float32, faces (M, 3)."""
         frames, finest = self._checked(source), self._pair.finest
         fine = self._fine_motion(frames)
-        if self._steering is not None:
-            carried = self.plain(frames)
-            fine += apply_matrix(self._pair.fine_places.astype(np.float32), self._steered(frames, carried) - carried)
+        if self._steering is not None or self._lids is not None:
+            added = self._steered(frames, self.plain(frames)) - self._carried(frames)
+            fine += apply_matrix(self._pair.fine_places.astype(np.float32), added)
         fine += finest.positions.astype(np.float32)
         return fine, finest.faces
 
@@ -169,7 +180,9 @@ class LevelRetargeter:
         """
         frames = self._checked(source)
         names = ["base", *(f"level {k}" for k in range(1, len(self._strengths.gains))), "detail"]
-        wholes = [self._with_parts(motion(frames), frames) for motion in self._up_to_each_level]
+        whole = self._whole(frames)
+        shut = (self._shut(motion(frames), frames, whole) for motion in self._up_to_each_level)
+        wholes = [self._with_parts(moved, frames) for moved in shut]
         if self._steering is not None:
             names.append("examples")
             wholes.append(self._with_parts(self._steered(frames, self.plain(frames)), frames))
@@ -178,13 +191,19 @@ class LevelRetargeter:
 
     @cached_property
     def _up_to_each_level(self) -> list[Motion]:
-        """Motion of the base alone, of the base and level 1, and so on; at last with the detail."""
+        """Motion of the base alone, of the base and level 1, and so on, at last with the detail; lids as carried."""
         counts = range(1, len(self._strengths.gains) + 1)
-        return [*(self._make_motion(self._strengths.up_to(count)) for count in counts), self.plain]
+        return [*(self._make_motion(self._strengths.up_to(count)) for count in counts), self._carried]
 
     @cached_property
     def _fine_motion(self) -> Motion:
         return self._make_fine_motion(self._strengths)
+
+    def _shut(self, moved: FloatArray, frames: FloatArray, whole: FloatArray | None) -> FloatArray:
+        """A carried motion of frames with its lids as far shut as the source's; `whole` : as for `LidSeams.correct`."""
+        if self._lids is None:
+            return moved
+        return self._lids.correct(moved, frames - self._source, whole, self._strengths.gains[0])
 
     def _steered(self, frames: FloatArray, carried: FloatArray) -> FloatArray:
         return carried if self._steering is None else self._steering.steer(carried, frames)

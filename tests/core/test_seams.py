@@ -10,7 +10,8 @@ from facial_retarget_addon.core.matching.coarse_source import smooth_coarse_sour
 from facial_retarget_addon.core.matching.correspondence import correspond
 from facial_retarget_addon.core.mesh import TriMesh
 from facial_retarget_addon.core.methods import motion_cloning
-from facial_retarget_addon.core.methods.settings import MotionCloningSettings
+from facial_retarget_addon.core.methods.base import fit
+from facial_retarget_addon.core.methods.settings import SETTINGS, MotionCloningSettings
 from facial_retarget_addon.core.points import FeaturePoints
 from facial_retarget_addon.core.problem import Face, Problem
 from facial_retarget_addon.core.seams.gaps import GAPES, SeamGaps
@@ -113,6 +114,26 @@ def test_a_lid_that_shuts_on_the_source_shuts_on_wider_eyes(actor: demo.DemoFace
     assert abs(shut) < 0.1
     assert without > shut + 0.2, "the carried motion alone leaves a slit on wider eyes"
     assert closed == pytest.approx(shut, abs=0.04)
+
+
+@pytest.mark.parametrize("method", ["hierarchical", "wavelet"])
+def test_lids_shut_at_every_strength_of_the_levels(method: str, actor: demo.DemoFace, child: Face) -> None:
+    frames = blink(actor).astype(np.float32)
+    shut = left_over(actor.face, frames[0].astype(float))
+    settings = {"levels": 2, "base_points": 105}
+    whole = fit(method, Problem(Face(actor.face.mesh, actor.face.points), child), SETTINGS[method](**settings))
+    whole_lids = left_over(child, whole.frames(frames)[0].astype(float))
+    assert whole_lids == pytest.approx(shut, abs=0.04)
+    levels = sum(level.displacements for level in whole.levels(frames))
+    np.testing.assert_allclose(child.mesh.vertices + levels, whole.frames(frames), atol=1e-5 * child.mesh.size)
+    smooth = whole.adjusted(SETTINGS[method](**settings, detail_scale=0.999))
+    assert left_over(child, smooth.frames(frames)[0].astype(float)) == pytest.approx(shut, abs=0.04)
+    # Half of the coarse motion, all of the finer one: a lid stops on its way.
+    half = whole.adjusted(SETTINGS[method](**settings, base_gain=0.5))
+    assert 0.3 < left_over(child, half.frames(frames)[0].astype(float)) < 0.6
+    fine, _ = whole.detail(frames)
+    still, _ = whole.detail(actor.face.mesh.vertices[None])
+    assert np.abs(fine - still).max() > 0.5 * np.abs(levels).max()
 
 
 def test_lids_of_a_face_onto_itself_are_left_as_they_are(actor: demo.DemoFace) -> None:

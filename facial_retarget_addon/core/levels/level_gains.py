@@ -22,6 +22,11 @@ class Strengths(NamedTuple):
         """Whether all of them are 1."""
         return self.detail == 1.0 and all(gain == 1.0 for gain in self.gains)
 
+    @property
+    def whole(self) -> Strengths:
+        """All of them 1."""
+        return Strengths((1.0,) * len(self.gains), 1.0)
+
     def up_to(self, count: int) -> Strengths:
         """The same for the base and the levels below `count`, 0 for the rest."""
         return Strengths(self.gains[:count] + (0.0,) * (len(self.gains) - count), 0.0)

@@ -17,6 +17,7 @@ from ..pair import Pair, prepare_pair
 from ..paper_motion import PaperMotion
 from ..parts.carried_parts import carried_parts
 from ..problem import Problem
+from ..seams.lids import lid_seams
 from ..steering.learned import Example
 from ..steering.rbf import MultiquadricMaps, fit_multiquadrics
 from .settings import HierarchicalSettings
@@ -73,7 +74,9 @@ def _default(
 
     # Parts that an example moves are left to the examples.
     parts = carried_parts(problem.source, problem.target, pair.steering_base.moved(examples))
-    retargeter = LevelRetargeter(pair, motion, strengths, fine_motion, parts)
+    rotation = pair.turns(pair.target.vertices) if local else pair.similarity.rotation
+    turns = np.broadcast_to(pair.similarity.scale * rotation, (len(pair.target.vertices), 3, 3))
+    retargeter = LevelRetargeter(pair, motion, strengths, fine_motion, parts, lid_seams(problem, turns))
     retargeter.learn(examples, settings.example_strength)
     return retargeter
 

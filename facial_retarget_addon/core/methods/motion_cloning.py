@@ -34,7 +34,7 @@ from ..parts.report import still_components
 from ..points import FeaturePoints, common_names
 from ..problem import Problem
 from ..rigid import Similarity, fit_similarity
-from ..seams.lids import LidSeams, find_eye_margins
+from ..seams.lids import LidSeams, lid_seams
 from ..steering.base_places import denser_base
 from ..steering.learned import Example, Steering, SteeringBase, learn
 from ..unfolding import Unfolding
@@ -226,7 +226,8 @@ def fit(problem: Problem, settings: MotionCloningSettings, progress: Progress = 
     parts = carried_parts(problem.source, problem.target, np.zeros(len(target.vertices), bool))
     retargeter = MotionCloningRetargeter(problem, matrix, units, parts)
     if not published and settings.motion != "compliant":
-        retargeter.fair(_lid_seams(problem, points, units), across.scale)
+        measured = np.broadcast_to(units.read / units.lengths[:, :, None], (len(source.vertices), 3, 3))
+        retargeter.fair(lid_seams(problem, units.turns, measured), across.scale)
     progress(0.9, "learning from the examples")
     base = SteeringBase(source, target, *points, *separations)
     if problem.source.examples and not published:
@@ -275,14 +276,6 @@ def _regional_units(
     ]
     figures = {"fapu": {"source": ours.taken, "target": theirs.taken}}
     return Units(here, lengths[0], there.T * lengths[1][:, None], there.T @ here, figures)
-
-
-def _lid_seams(problem: Problem, points: tuple[FeaturePoints, FeaturePoints], units: Units) -> LidSeams:
-    """Lids that do what the source's do, in the units of the motion."""
-    meshes = problem.source.mesh, problem.target.mesh
-    ours, theirs = (find_eye_margins(mesh, part) for mesh, part in zip(meshes, points, strict=True))
-    measured = np.broadcast_to(units.read / units.lengths[:, :, None], (len(meshes[0].vertices), 3, 3))
-    return LidSeams(ours, theirs, meshes, measured, units.turns)
 
 
 def _local_turns(

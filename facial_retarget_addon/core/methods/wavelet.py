@@ -26,6 +26,7 @@ from ..parts.carried_parts import carried_parts
 from ..points import place_matrix
 from ..problem import Problem
 from ..rigid import Similarity, closest_rotations
+from ..seams.lids import lid_seams
 from ..steering.residuals import spread_matrix
 from ..subdivided_pair import subdivided_pair
 from ..wavelets.lifting import Wavelets, integral_wavelets, wavelets
@@ -72,7 +73,8 @@ def fit(problem: Problem, settings: WaveletSettings, progress: Progress = no_pro
     progress(0.9, "preparing the motion")
     # Parts that an example moves are left to the examples.
     parts = carried_parts(problem.source, problem.target, pair.steering_base.moved(examples))
-    retargeter = LevelRetargeter(pair, levels.motion, strengths, levels.fine_motion, parts)
+    lids = None if settings.mode == "paper" else lid_seams(problem, levels.scaled_turns)
+    retargeter = LevelRetargeter(pair, levels.motion, strengths, levels.fine_motion, parts, lids)
     retargeter.learn(examples, settings.example_strength)
     progress(1.0, "fitted")
     return retargeter
@@ -106,6 +108,11 @@ class _Levels:
         finer_turns = self._turns if self._mode == "framed" else _unturned(self._turns)
         finer = self._linear(strengths.detail * self._finer, self._detail_scale, finer_turns)
         return RidingMotion(self.fine_motion(strengths), self._ride, (beyond, finer))
+
+    @property
+    def scaled_turns(self) -> FloatArray:
+        """(Vt, 3, 3) what displacements of the source are on the target."""
+        return self._frames.scale * self._turns
 
     @property
     def _detail_scale(self) -> float:

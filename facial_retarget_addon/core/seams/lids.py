@@ -17,7 +17,9 @@ from ..matching.surface_fill import HarmonicFill
 from ..mesh import TriMesh
 from ..mpeg4.fdps import FDPS
 from ..mpeg4.head import head_axes
-from ..points import FeaturePoints
+from ..mpeg4.regions import OWN_PARTS
+from ..points import FeaturePoints, common_names
+from ..problem import Problem
 from .margins import GuidedMargin, guided_margin, has_points, lid_steps, on_rim, opposite
 
 GUIDES = 3
@@ -168,13 +170,29 @@ class LidSeams:
         self._reached = np.flatnonzero(spread.getnnz(axis=1))
         self._spread = spread[self._reached].astype(np.float32)
 
-    def correct(self, displacements: FloatArray, source: FloatArray) -> FloatArray:
-        """Target displacements (F, Vt, 3) float32, corrected in place, for the source's (F, Vs, 3)."""
+    def correct(
+        self, displacements: FloatArray, source: FloatArray, whole: FloatArray | None = None, gain: float = 1.0
+    ) -> FloatArray:
+        """Target displacements (F, Vt, 3) float32, corrected in place, for the source's (F, Vs, 3).
+
+        whole : what tells what is missed, where the displacements are not the whole motion.
+        gain : how much of that is added.
+        """
         if self.sides:
             wanted = np.einsum("gij,fgj->fgi", self._maps, self._read(source))
-            missed = wanted - self._carried(displacements)
-            displacements[:, self._reached] += apply_matrix(self._spread, missed)
+            missed = wanted - self._carried(displacements if whole is None else whole)
+            displacements[:, self._reached] += np.float32(gain) * apply_matrix(self._spread, missed)
         return displacements
+
+
+def lid_seams(problem: Problem, turns: FloatArray, measured: FloatArray | None = None) -> LidSeams:
+    """Lids of a problem's faces; parameters as for `LidSeams`, `measured` None for the source's own coordinates."""
+    source, target = problem.source, problem.target
+    names = [name for name in common_names(source.points, target.points) if name not in OWN_PARTS]
+    ours, theirs = (find_eye_margins(face.mesh, face.points.subset(names)) for face in (source, target))
+    if measured is None:
+        measured = np.broadcast_to(np.eye(3), (len(source.mesh.vertices), 3, 3))
+    return LidSeams(ours, theirs, (source.mesh, target.mesh), measured, turns)
 
 
 def _lid_maps(
