@@ -270,8 +270,25 @@ def buttons(
             if what:
                 found.setdefault(what, (_mouse[0], _mouse[1]))
                 if wanted and wanted in what:
-                    return found
+                    # A busy window may still tell of the row before.
+                    x, y = found[what]
+                    yield from move(x, y)
+                    late = wanted not in button_under_mouse(shown, editor)
+                    return found | {what: (x, y + late * step)}
     return found
+
+
+def middle_of(what: str, place: tuple[float, float], kind: str = "UI", editor: bpy.types.Area | None = None) -> Turns:
+    """The middle, from top to bottom, of a button that was found at a place: a search stops at its first row."""
+    editor = editor or area()
+    shown = region(kind, editor)
+    rows = []
+    for row in range(-14, 15):
+        yield from move(place[0], place[1] + row)
+        if what in button_under_mouse(shown, editor):
+            rows.append(row)
+    assert rows, f"no button near {place} does {what}"
+    return place[0], place[1] + 0.5 * (rows[0] + rows[-1])
 
 
 def find_button(

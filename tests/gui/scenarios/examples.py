@@ -8,6 +8,7 @@ from drive import (
     find_button,
     key,
     look,
+    middle_of,
     move,
     on_screen,
     open_section,
@@ -56,7 +57,8 @@ def example_button(operator: str, example: str, side: str):
 def choose(rows: int, example: str, side: str, letter: str):
     """Open the menu some rows above Strength, and choose what has a letter of its own."""
     command = f'facial_retarget.scale_example(example="{example}", side="{side}"'
-    x, y = yield from find_button(command, across=(0.3, 0.75))
+    found = yield from find_button(command, across=(0.3, 0.75))
+    x, y = yield from middle_of(command, found)
     yield from click(x, y + rows * ROW)
     yield from key(letter)
 
@@ -144,7 +146,8 @@ def scenario():
     assert changed(cloned) == []
 
     # The slider of Strength acts at once: half of it.
-    x, y = yield from find_button('facial_retarget.scale_example(example="joy", side="TARGET"', across=(0.3, 0.75))
+    strength = 'facial_retarget.scale_example(example="joy", side="TARGET"'
+    x, y = yield from middle_of(strength, (yield from find_button(strength, across=(0.3, 0.75))))
     yield from click(x, y)
     screenshot("strength")
     yield from move(x + 215, y - 102)
