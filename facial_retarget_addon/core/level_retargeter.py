@@ -57,7 +57,8 @@ class LevelRetargeter:
         lids: LidSeams | None = None,
     ) -> None:
         self._pair, self._make_motion, self._strengths = pair, make_motion, strengths
-        self._make_fine_motion, self._parts, self._lids = make_fine_motion, parts, lids
+        self._make_fine_motion, self._parts = make_fine_motion, parts
+        self._lids = lids if lids is not None and lids.sides else None
         self._carried = make_motion(strengths)
         self._whole = self._carried if strengths.plain else make_motion(strengths.whole)
         self._steering: Steering | None = None
@@ -89,8 +90,7 @@ class LevelRetargeter:
 
     def plain(self, frames: FloatArray) -> FloatArray:
         """Displacements (F, Vt, 3) of frames (F, Vs, 3) float32, without examples and parts."""
-        whole = None if self._carried is self._whole else self._whole(frames)
-        return self._shut(self._carried(frames), frames, whole)
+        return self._shut(self._carried(frames), frames)
 
     def prepare_levels(self) -> None:
         """Make now what other strengths will need, so that they act at once."""
@@ -144,7 +144,8 @@ class LevelRetargeter:
         frames, finest = self._checked(source), self._pair.finest
         fine = self._fine_motion(frames)
         if self._steering is not None or self._lids is not None:
-            added = self._steered(frames, self.plain(frames)) - self._carried(frames)
+            carried = self._carried(frames)
+            added = self._steered(frames, self._shut(carried.copy(), frames)) - carried
             fine += apply_matrix(self._pair.fine_places.astype(np.float32), added)
         fine += finest.positions.astype(np.float32)
         return fine, finest.faces
@@ -180,9 +181,11 @@ class LevelRetargeter:
         """
         frames = self._checked(source)
         names = ["base", *(f"level {k}" for k in range(1, len(self._strengths.gains))), "detail"]
-        whole = self._whole(frames)
-        shut = (self._shut(motion(frames), frames, whole) for motion in self._up_to_each_level)
-        wholes = [self._with_parts(moved, frames) for moved in shut]
+        moves = [motion(frames) for motion in self._up_to_each_level]
+        if self._lids is not None:
+            missed = self._missed_at_lids(self._whole(frames), frames)
+            moves = [self._lids.add(moved, missed) for moved in moves]
+        wholes = [self._with_parts(moved, frames) for moved in moves]
         if self._steering is not None:
             names.append("examples")
             wholes.append(self._with_parts(self._steered(frames, self.plain(frames)), frames))
@@ -199,11 +202,17 @@ class LevelRetargeter:
     def _fine_motion(self) -> Motion:
         return self._make_fine_motion(self._strengths)
 
-    def _shut(self, moved: FloatArray, frames: FloatArray, whole: FloatArray | None) -> FloatArray:
-        """A carried motion of frames with its lids as far shut as the source's; `whole` : as for `LidSeams.correct`."""
+    def _shut(self, carried: FloatArray, frames: FloatArray) -> FloatArray:
+        """The carried motion of frames, in place, with its lids as far shut as the source's."""
         if self._lids is None:
-            return moved
-        return self._lids.correct(moved, frames - self._source, whole, self._strengths.gains[0])
+            return carried
+        whole = carried if self._carried is self._whole else self._whole(frames)
+        return self._lids.add(carried, self._missed_at_lids(whole, frames))
+
+    def _missed_at_lids(self, whole: FloatArray, frames: FloatArray) -> FloatArray:
+        """What the motion at full strength misses at the lids' guides, as strong as the base's motion."""
+        assert self._lids is not None
+        return np.float32(self._strengths.gains[0]) * self._lids.missed(whole, frames - self._source)
 
     def _steered(self, frames: FloatArray, carried: FloatArray) -> FloatArray:
         return carried if self._steering is None else self._steering.steer(carried, frames)

@@ -170,18 +170,18 @@ class LidSeams:
         self._reached = np.flatnonzero(spread.getnnz(axis=1))
         self._spread = spread[self._reached].astype(np.float32)
 
-    def correct(
-        self, displacements: FloatArray, source: FloatArray, whole: FloatArray | None = None, gain: float = 1.0
-    ) -> FloatArray:
-        """Target displacements (F, Vt, 3) float32, corrected in place, for the source's (F, Vs, 3).
+    def correct(self, displacements: FloatArray, source: FloatArray) -> FloatArray:
+        """Target displacements (F, Vt, 3) float32, corrected in place, for the source's (F, Vs, 3)."""
+        return self.add(displacements, self.missed(displacements, source)) if self.sides else displacements
 
-        whole : what tells what is missed, where the displacements are not the whole motion.
-        gain : how much of that is added.
-        """
-        if self.sides:
-            wanted = np.einsum("gij,fgj->fgi", self._maps, self._read(source))
-            missed = wanted - self._carried(displacements if whole is None else whole)
-            displacements[:, self._reached] += np.float32(gain) * apply_matrix(self._spread, missed)
+    def missed(self, displacements: FloatArray, source: FloatArray) -> FloatArray:
+        """(F, G, 3) what the target's displacements (F, Vt, 3) miss at its guides, for the source's (F, Vs, 3)."""
+        missed: FloatArray = np.einsum("gij,fgj->fgi", self._maps, self._read(source)) - self._carried(displacements)
+        return missed
+
+    def add(self, displacements: FloatArray, missed: FloatArray) -> FloatArray:
+        """Displacements (F, Vt, 3) float32 with what is missed at the guides (F, G, 3) added in place."""
+        displacements[:, self._reached] += apply_matrix(self._spread, missed)
         return displacements
 
 
