@@ -5,7 +5,7 @@ from bpy.types import Context, Operator
 
 from ..facial_retarget_addon.translations import filled
 from .errors import tells_user
-from .polls import in_mode
+from .polls import has_target, in_mode
 
 
 class OnBakes:
@@ -18,10 +18,9 @@ class OnBakes:
     @classmethod
     def poll(cls, context: Context) -> bool:
         """A target must be chosen and have a bake."""
-        target = context.scene.facial_retarget.target
-        if target is None:
-            cls.poll_message_set(filled("Choose a target under Faces"))
+        if not has_target(cls, context):
             return False
+        target = context.scene.facial_retarget.target
         if not target.facial_retarget.bake and not len(target.facial_retarget.kept_bakes):
             cls.poll_message_set(filled("The target has no bake"))
             return False

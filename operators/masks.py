@@ -3,21 +3,19 @@
 from bpy.types import Context, Operator
 
 from ..facial_retarget_addon.translations import filled
+from .polls import has_target
 
 
-class OnTarget:
-    """For operators on the target."""
+class OnTargetInAnyMode:
+    """For operators on the target, while it is painted too."""
 
     @classmethod
     def poll(cls, context: Context) -> bool:
         """A target must be chosen."""
-        if context.scene.facial_retarget.target is None:
-            cls.poll_message_set(filled("Choose a target under Faces"))
-            return False
-        return True
+        return has_target(cls, context)
 
 
-class FACIAL_RETARGET_OT_add_mask(OnTarget, Operator):
+class FACIAL_RETARGET_OT_add_mask(OnTargetInAnyMode, Operator):
     """Let a vertex group of the target make the motion weaker or stronger; one is made if there is none to take"""
 
     bl_idname = "facial_retarget.add_mask"
@@ -32,7 +30,7 @@ class FACIAL_RETARGET_OT_add_mask(OnTarget, Operator):
         return {"FINISHED"}
 
 
-class FACIAL_RETARGET_OT_remove_mask(OnTarget, Operator):
+class FACIAL_RETARGET_OT_remove_mask(OnTargetInAnyMode, Operator):
     """Take the mask off the list; its vertex group stays"""
 
     bl_idname = "facial_retarget.remove_mask"
@@ -41,7 +39,7 @@ class FACIAL_RETARGET_OT_remove_mask(OnTarget, Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        """As `OnTarget`; there must be a mask."""
+        """As `OnTargetInAnyMode`; there must be a mask."""
         if not super().poll(context):
             return False
         if not len(context.scene.facial_retarget.masks):

@@ -16,6 +16,14 @@ def in_mode(cls: type, context: Context, modes: tuple[str, ...] = ("OBJECT",)) -
     return True
 
 
+def has_target(cls: type, context: Context) -> bool:
+    """Whether a target is chosen; the tooltip says it if not."""
+    if context.scene.facial_retarget.target is None:
+        cls.poll_message_set(filled("Choose a target under Faces"))
+        return False
+    return True
+
+
 class OnFace:
     """For operators on the active mesh object."""
 
@@ -98,10 +106,7 @@ class OnTarget:
     @classmethod
     def poll(cls, context: Context) -> bool:
         """A target must be chosen, in Object Mode."""
-        if context.scene.facial_retarget.target is None:
-            cls.poll_message_set(filled("Choose a target under Faces"))
-            return False
-        return in_mode(cls, context)
+        return has_target(cls, context) and in_mode(cls, context)
 
 
 class OnCloning:

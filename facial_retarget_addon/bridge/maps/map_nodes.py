@@ -191,13 +191,18 @@ def _of_tile(
 def _vector(tree: NodeTree, operation: str, place: tuple[float, float], *values: object) -> Node:
     """A node that works on vectors; its inputs are sockets or values."""
     node = _new(tree, "ShaderNodeVectorMath", place)
+    operate(tree, node, operation, *values)
+    return node
+
+
+def operate(tree: NodeTree, node: Node, operation: str, *values: object) -> None:
+    """Let a math node do something with values, which are sockets or what an input may hold."""
     node.operation = operation
     for socket, value in zip(node.inputs, values, strict=False):
         if isinstance(value, NodeSocket):
             tree.links.new(value, socket)
         else:
             socket.default_value = value
-    return node
 
 
 def _green_turned(tree: NodeTree, colour: NodeSocket, place: tuple[float, float]) -> NodeSocket:

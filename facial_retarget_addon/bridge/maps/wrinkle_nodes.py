@@ -221,12 +221,7 @@ def _adding_group() -> ShaderNodeTree:
 
     def math(operation: str, *values: NodeSocket | float) -> NodeSocket:
         node = new("ShaderNodeMath")
-        node.operation = operation
-        for socket, value in zip(node.inputs, values, strict=False):
-            if isinstance(value, NodeSocket):
-                group.links.new(value, socket)
-            else:
-                socket.default_value = value
+        map_nodes.operate(group, node, operation, *values)
         return node.outputs[0]
 
     before, x, y, weight = new("NodeGroupInput").outputs[:4]
@@ -245,12 +240,7 @@ def _vector_math(
     tree: NodeTree, node: Node, operation: str, values: tuple[NodeSocket | tuple[float, float, float], ...]
 ) -> NodeSocket:
     """The output of a vector-math node; a number that is linked counts for all three coordinates."""
-    node.operation = operation
-    for socket, value in zip(node.inputs, values, strict=False):
-        if isinstance(value, NodeSocket):
-            tree.links.new(value, socket)
-        else:
-            socket.default_value = value
+    map_nodes.operate(tree, node, operation, *values)
     return node.outputs["Value" if operation == "DOT_PRODUCT" else "Vector"]
 
 
